@@ -19,7 +19,7 @@ template <class Solver, class Problem>
 scarp::StepReport one_step(Solver const& solver, Problem& problem, double load_increment) {
   typename Solver::template Session<Problem> session(solver, problem);
   scarp::StepReport report;
-  REQUIRE(session.begin(0.0).acceptable());
+  REQUIRE(session.begin(0.0, 0.0).acceptable());
   Eigen::VectorXd increment = session.predict(0.0, load_increment);
   session.correct(increment, report);
   if (report.verdict.acceptable()) session.accept(increment);

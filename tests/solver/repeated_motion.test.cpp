@@ -24,7 +24,7 @@ scarp::RunReport pulled(Block::Problem& problem, Solver const& solver) {
 /// One step of the load factor, accepted if it ends in equilibrium.
 scarp::StepReport step(auto& session, double from, double to, scarp::StopCondition const& stop = {}) {
   scarp::StepReport report;
-  report.verdict = session.begin(from);
+  report.verdict = session.begin(from, to);
   REQUIRE(report.verdict.acceptable());
   Eigen::VectorXd increment = session.predict(from, to);
   session.correct(increment, report, stop);
@@ -70,7 +70,7 @@ TEST_CASE("a prediction is the last step's motion, scaled by the load, where tha
   auto const before = problem.discretisation().positions();
   REQUIRE(step(session, 0.0, 4e-3).verdict.acceptable());
   auto const repeats = [&] {
-    REQUIRE(session.begin(4e-3).acceptable());
+    REQUIRE(session.begin(4e-3, 5e-3).acceptable());
     Eigen::VectorXd const increment = session.predict(4e-3, 5e-3);
     double apart = 0.0;
     for (std::size_t node = 0; node < before.size(); ++node) {

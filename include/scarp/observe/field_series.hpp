@@ -86,7 +86,7 @@ ElementFields element_fields(Problem const& problem) {
 
 }  // namespace detail
 
-/// Writes the fields of a scene as a VTU series: displacement at the nodes; at the elements (the mean of
+/// Writes the fields of a scene as a VTU series: displacement and fields of what is attached at the nodes; at the elements (the mean of
 /// their points, weighted by volume; the worst status)
 /// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
 /// and the quantities that the points' providers return. Every file is complete when it appears; the PVD's time is the load in its unit.
@@ -123,8 +123,11 @@ class FieldSeries : public NeverStops {
       displacement.insert(displacement.end(), moved.begin(), moved.end());
     }
     auto const at_elements = detail::element_fields(problem);
+    auto const attached = problem.attachment() ? problem.attachment()->nodal_fields() : std::vector<NodalField>{};
     VtuFields fields;
     fields.at_nodes.push_back({"displacement", dim, std::span<double const>(displacement), {}});
+    for (auto const& [name, values] : attached)
+      fields.at_nodes.push_back({name, 1, std::span<double const>(values), {}});
     std::vector<std::string> components{"xx", "yy", "xy"};
     if constexpr (dim == 3) components = {"xx", "yy", "zz", "yz", "zx", "xy"};
     fields.at_elements.push_back({"stress", voigt_size<dim>, std::span<double const>(at_elements.stress), components});

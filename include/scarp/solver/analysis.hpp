@@ -138,7 +138,8 @@ std::string Analysis<Dim>::why(RunReport const& run) const {
     words += fmt::format(" at point {} (region {}, at {})", run.worst_point,
                          problem_.grid().regions()[detail::index(site.region)], listed(site.position, ", ", "{:.4g}"));
   }
-  if (run.weak_dof >= 0) words += ", nothing holds " + describe_dof(problem_.grid(), run.weak_dof);
+  if (run.weak_dof >= 0)
+    words += ", nothing holds " + describe_dof(problem_.grid(), run.weak_dof, problem_.attachment());
   return words;
 }
 

@@ -145,7 +145,7 @@ struct LoadStepping {
     run.load = load;
     StepReport step;
     step.load = load;
-    try_step(session, problem, step, run, observer, [&] { return session.predict(load, load); });
+    try_step(session, problem, load, step, run, observer, [&] { return session.predict(load, load); });
     run.verdict = step.verdict;
     return run;
   }
@@ -197,7 +197,7 @@ struct LoadStepping {
     StepReport step;
     step.step = run.steps + 1;
     step.load = run.load;
-    bool const began = try_step(session, problem, step, run, observer, [&] {
+    bool const began = try_step(session, problem, end_of(run.load, goal, tried), step, run, observer, [&] {
       Eigen::VectorXd displacement = limited_prediction(session, problem, run.load, goal, tried);
       step.load = end_of(run.load, goal, tried);
       step.load_increment = step.load < goal ? tried : goal - run.load;
@@ -224,21 +224,19 @@ struct LoadStepping {
   /// First load factor beyond one where loads or prescribed motions may turn; infinite for a problem that names none.
   template <class Problem>
   static double next_knot(Problem const& problem, double load) {
-    double next = std::numeric_limits<double>::infinity();
-    if constexpr (requires { problem.loads().next_knot(load) + problem.constraints().next_knot(load); })
-      next = std::min(problem.loads().next_knot(load), problem.constraints().next_knot(load));
-    return next;
+    if constexpr (requires { problem.next_knot(load); }) return problem.next_knot(load);
+    return std::numeric_limits<double>::infinity();
   }
 
-  /// From the committed state at the step's load to equilibrium at what predict() begins with; an interrupted attempt counts
-  /// as never made.
+  /// From the committed state at the step's load to equilibrium at what predict() begins with, which is at the load `aim` or before;
+  /// an interrupted attempt counts as never made.
   /// \return whether the session could begin
   template <class Session, class Problem, class Observer, class Predict>
-  static bool try_step(Session& session, Problem const& problem, StepReport& step, RunReport& run, Observer& observer,
-                       Predict const& predict) {
+  static bool try_step(Session& session, Problem const& problem, double aim, StepReport& step, RunReport& run,
+                       Observer& observer, Predict const& predict) {
     auto const started = std::chrono::steady_clock::now();
     Eigen::VectorXd displacement;
-    step.verdict = session.begin(step.load);
+    step.verdict = session.begin(step.load, aim);
     session.describe(step);
     bool const began = step.verdict.acceptable();
     if (began) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -40,22 +41,16 @@ class SCARP_EXPORT Problem {
         executor_(executor),
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
-        whole_{constraints_.free_dofs(), constraints_.prescribed_dofs()},
+        whole_(detail::WholeResidual::of(constraints_, has_field() ? grid_->dof_count() : constraints_.dof_count())),
         regions_(*grid_, constraints_) {
-    if (points_.size() != grid_->point_count()) {
+    if (points_.size() != grid_->point_count())
       reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
              grid_->point_count());
-    }
     if (loads_.size() == 0) loads_ = LoadHistory(Eigen::VectorXd::Zero(dof_count()));
-    if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count()) {
+    if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count())
       reject("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
              loads_.size(), constraints_.dof_count(), dof_count());
-    }
-    if (auto const thickness = attached_ ? attached_->thickness() : std::nullopt;
-        thickness && *thickness != grid_->thickness()) {
-      reject("what is attached to the mesh is {} m thick out of the plane (the mesh is {} m): give both the same",
-             *thickness, grid_->thickness());
-    }
+    if (attached_) attached_->require_fit(*grid_, constraints_);
     set_load(0.0);
   }
   Problem(Problem const&) = delete;  // sessions and stiffnesses refer to it
@@ -64,7 +59,9 @@ class SCARP_EXPORT Problem {
   /// Degrees of freedom of the mesh, then of what is attached.
   int dof_count() const { return grid_->dof_count() + (attached_ ? attached_->extra_dofs() : 0); }
 
-  bool has_attachment() const { return attached_ != nullptr; }  ///< Whether something is attached to the mesh.
+  bool has_attachment() const { return attached_ != nullptr; }           ///< Whether something is attached to the mesh.
+  bool has_field() const { return attached_ && attached_->is_field(); }  ///< Whether that is a `FieldAttachment`.
+  detail::AttachedPart<Dim> const* attachment() const { return attached_.get(); }  ///< Of any type, or null.
   /// What is attached to the mesh. \throws InputError unless it is of this type
   template <class Part>
   Part const& attached() const {
@@ -80,7 +77,7 @@ class SCARP_EXPORT Problem {
   }
   /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it. Whether they
   /// could result is that of the next evaluation.
-  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) {
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) const {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
     if (attached_) static_cast<void>(attached_->add_forces(grid_->positions(), increment, forces));
     return forces;
@@ -90,7 +87,16 @@ class SCARP_EXPORT Problem {
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
   SparseMatrix stick_stiffness() const { return assembled(&detail::AttachedPart<Dim>::add_stick_stiffness); }
 
-  void set_load(double load) { load_now_ = loads_.at(load); }    ///< Forces are measured against its loads.
+  /// Forces are measured against the loads of a load factor, and a step of an attached field ends there, or at another one.
+  void set_load(double load, std::optional<double> field_at = {}) {
+    load_now_ = loads_.at(load);
+    if (attached_) attached_->at(field_at.value_or(load));
+  }
+  /// First load factor beyond one where loads, prescribed motions or an attached field may turn; infinite beyond the last.
+  double next_knot(double load) const {
+    double const next = std::min(loads_.next_knot(load), constraints_.next_knot(load));
+    return attached_ ? std::min(next, attached_->next_knot(load)) : next;
+  }
   Grid<Dim> const& grid() const { return *grid_; }               ///< Mesh and elements, committed.
   MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
   MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
@@ -177,16 +183,18 @@ class SCARP_EXPORT Problem {
   /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
   /// and what the elements and the attachment carried there last, Euclidean norms, or a thousandth of the largest that
   /// a committed state had, since an unloaded body has none. Then follows each region of the mesh that is held nowhere,
-  /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them).
+  /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them);
+  /// a field has its own name and measure, and is no part of the whole.
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
     std::vector<PartResidual> parts{{"all", whole_.residual(unbalanced, load_now_)}};
     regions_.list(unbalanced, load_now_, parts);
-    if (attached_) parts.push_back({"attached", residual_beside(unbalanced)});
+    if (attached_) parts.push_back({attached_->name(), residual_beside(unbalanced)});
     return parts;
   }
 
-  /// Imbalance of an attached body over its own loads, since reactions of the ground would hide it; 0 without loads.
+  /// Imbalance of an attached body over its own loads, which reactions of the ground would hide (0 without loads), or of a field.
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
+    if (has_field()) return attached_->residual(unbalanced.tail(attached_->extra_dofs()));
     return detail::residual_beside(unbalanced, load_now_, whole_.free_dofs, grid_->dof_count());
   }
 
@@ -228,11 +236,7 @@ class SCARP_EXPORT Problem {
  private:
   using Entries = std::vector<Eigen::Triplet<double>>;
   SparseMatrix assembled(void (detail::AttachedPart<Dim>::*add)(Entries&) const) const {
-    Entries entries;
-    if (attached_) (*attached_.*add)(entries);
-    SparseMatrix matrix(dof_count(), dof_count());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
+    return detail::assembled(attached_.get(), add, dof_count());
   }
   void forget() { seen_ = evaluated_ = Eigen::VectorXd(); }
   void require_evaluated(std::string_view what, Eigen::VectorXd const& increment) const {
@@ -271,9 +275,8 @@ class SCARP_EXPORT Problem {
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
     if (attached_ || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
-    if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable()) {
+    if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable())
       evaluation.verdict = {Status::failed, Reason::not_finite};
-    }
   }
 
   std::unique_ptr<detail::AttachedPart<Dim>> attached_;

@@ -30,7 +30,7 @@ struct QuasiNewton {
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
   int max_refinements = 8;         ///< of points that have not converged, in each iteration
   /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one left
-  /// unbalanced; after a rejected one it is linear.
+  /// unbalanced; after a rejected one, and for a field on points with exact tangents, it is linear.
   bool repeats_motion = true;
   int tangent_interval = 4;  ///< load steps that share one evaluation of the provider's tangents
   Rule rule{};               ///< working tangent of each point
@@ -53,8 +53,7 @@ struct QuasiNewton {
   using Session = QuasiNewtonSession<Rule, Problem::dim>;
 };
 
-/// The iteration of a `QuasiNewton` on one problem: factorisation and what the points' tangents have learned. Its members are
-/// defined outside so that a library can contain them.
+/// The iteration of a `QuasiNewton` on one problem: factorisation, learned tangents. Its members are defined outside, for a library.
 /// \tparam Rule of the `QuasiNewton`
 template <class Rule, int Dim>
 class SCARP_EXPORT QuasiNewtonSession {
@@ -62,17 +61,17 @@ class SCARP_EXPORT QuasiNewtonSession {
   static constexpr int dim = Dim;       ///< of the problem
   using Problem = scarp::Problem<Dim>;  ///< whatever its elements and materials are
 
-  /// The problem must outlive the session.
-  /// \throws InputError for a setting outside of its range
+  /// The problem must outlive the session. \throws InputError for a setting outside of its range
   QuasiNewtonSession(QuasiNewton<Rule> const& settings, Problem& problem)
       : settings_(detail::validated(settings)),
         problem_(problem),
         exact_(problem.have_exact_tangents()),
         tolerance_(settings.tolerance.value_or(exact_ ? 1e-6 : 5e-3)),
+        repeats_motion_(settings.repeats_motion && !(exact_ && problem.has_field())),
         linearised_(problem, 0.1 * tolerance_, settings.linear_solver) {}
 
-  /// Readies a step from the committed state at a load factor: tangents, factorisation, present imbalance.
-  Verdict begin(double load);
+  /// Readies a step between two load factors from the committed state: tangents, factorisation, present imbalance.
+  Verdict begin(double from, double to);
   /// Adds the condition and the weak degree of freedom that begin() found.
   void describe(StepReport& report) const { linearised_.describe(report); }
   /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that step left
@@ -86,8 +85,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   void accept(Eigen::VectorXd const& increment);
 
   /// State that persists from step to step.
-  SCARP_MEMBERS_EXCEPT((settings_, problem_, exact_, tolerance_, linearised_, mark_, tangent_seconds_, working_,
-                        last_gradients_, last_stresses_, missing_, growth_),
+  SCARP_MEMBERS_EXCEPT((settings_, problem_, exact_, tolerance_, repeats_motion_, linearised_, mark_, tangent_seconds_,
+                        working_, last_gradients_, last_stresses_, missing_, growth_),
                        first_, provider_, steps_of_provider_, learned_, motion_)
 
  private:
@@ -121,6 +120,7 @@ class SCARP_EXPORT QuasiNewtonSession {
   Problem& problem_;
   bool exact_;        ///< whether all tangents of materials are derivatives
   double tolerance_;  ///< of the residual
+  bool repeats_motion_;
   LinearisedStep<Dim> linearised_;
   Clock::time_point mark_{};              ///< end of the last response of the points in this step
   double tangent_seconds_ = 0.0;          ///< that no evaluation has counted yet
@@ -137,8 +137,8 @@ class SCARP_EXPORT QuasiNewtonSession {
 };
 
 template <class Rule, int Dim>
-Verdict QuasiNewtonSession<Rule, Dim>::begin(double load) {
-  problem_.set_load(load);
+Verdict QuasiNewtonSession<Rule, Dim>::begin(double from, double to) {
+  problem_.set_load(from, repeats_motion_ ? from : to);  // what a field lacks at the end is its motion and no imbalance
   if (steps_of_provider_ == 0) provider_ = timed_tangents(false);
   if (first_.empty()) first_ = provider_;
   if (learned_.empty()) learned_ = provider_;
@@ -228,7 +228,7 @@ void QuasiNewtonSession<Rule, Dim>::accept(Eigen::VectorXd const& increment) {
   problem_.commit(increment);
   learned_ = working_;
   steps_of_provider_ = (steps_of_provider_ + 1) % settings_.tangent_interval;
-  if (!settings_.repeats_motion || !(growth_ > 0.0)) return;
+  if (!repeats_motion_ || !(growth_ > 0.0)) return;
   Eigen::VectorXd const motion = linearised_.system().gather(increment) - missing_;
   motion_ = {{motion.begin(), motion.end()}, growth_};
 }

@@ -14,7 +14,7 @@ namespace scarp {
 
 /// Imbalance of a part of a problem, relative to what carries or loads it: see Problem::residuals.
 struct PartResidual {
-  std::string name;    ///< "all", a region of the mesh, or "attached"
+  std::string name;    ///< "all", a region of the mesh, "attached" or the name of a field
   double value = 0.0;  ///< ratio of forces, without unit
 };
 

@@ -29,6 +29,15 @@ struct WholeResidual {
   double carried = 0.0;        ///< at free degrees of freedom in the last evaluation, squared [N2]
   double largest_scale = 0.0;  ///< of the committed states that were evaluated, squared [N2]
 
+  /// Of the degrees of freedom below `count`.
+  static WholeResidual of(Constraints const& constraints, int count) {
+    auto const below = [count](std::vector<int> dofs) {
+      std::erase_if(dofs, [count](int dof) { return dof >= count; });
+      return dofs;
+    };
+    return {below(constraints.free_dofs()), below(constraints.prescribed_dofs())};
+  }
+
   /// Takes forces [N] of a part, such as the elements, into account.
   void carry(Eigen::VectorXd const& forces) { carried = std::max(carried, squared_over(free_dofs, forces)); }
 
