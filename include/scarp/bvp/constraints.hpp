@@ -63,6 +63,9 @@ class Constraints {
     prescribe(dim_ * nodes_ + number, fmt::format("extra degree of freedom {}", number), rate, std::move(amplitude));
   }
 
+  /// Adds degrees of freedom of what is attached.
+  void add_dofs(int extra_dofs) { motions_.resize(motions_.size() + detail::index(extra_dofs)); }
+
   /// Degrees of freedom of the nodes and of attached bodies.
   int dof_count() const { return detail::count(motions_); }
   /// Degrees of freedom that are not prescribed.

@@ -92,6 +92,12 @@ class LoadHistory {
     parts_.emplace_back(std::move(forces), std::move(amplitude));
   }
 
+  /// Adds degrees of freedom without load.
+  void add_dofs(int extra_dofs) {
+    for (auto& [forces, amplitude] : parts_)
+      forces.conservativeResizeLike(Eigen::VectorXd::Zero(forces.size() + extra_dofs));
+  }
+
   /// Degrees of freedom of the patterns; zero where there is none.
   Eigen::Index size() const { return parts_.empty() ? 0 : parts_.front().first.size(); }
 

@@ -56,7 +56,7 @@ class SCARP_EXPORT Analysis {
   /// \throws InputError for an unknown boundary or axis
   double displacement(std::string_view side, int axis) const;
 
-  /// Force [N] of the support of a boundary: what its nodes carry less their loads. Below the load factor 1 it is that of ground
+  /// Force [N] of the support of a boundary: what its nodes carry, of ground and of what is attached, less their loads. Below the load factor 1 it is that of ground
   /// which was in equilibrium at first, so that the whole weight counts.
   /// \throws InputError for an unknown boundary
   Vector<Dim> reaction(std::string_view side) const;
@@ -121,6 +121,8 @@ Vector<Dim> Analysis<Dim>::reaction(std::string_view side) const {
   auto const& grid = problem_.grid();
   Eigen::VectorXd forces;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
+  if (problem_.has_attachment())
+    forces += problem_.attached_forces(Eigen::VectorXd::Zero(problem_.dof_count())).head(forces.size());
   forces -= external_.at(load_);
   Vector<dim> sum = Vector<dim>::Zero();
   for (int const node : grid.boundary_nodes(side)) sum += forces.template segment<dim>(dim * node);

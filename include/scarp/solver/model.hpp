@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -91,6 +92,14 @@ class SCARP_EXPORT Model {
     regions_.push_back({std::move(region), of_points});
   }
 
+  /// A field on the elements, as it is now, such as a `PoreWater`.
+  /// \throws InputError for a second one
+  template <FieldAttachment Field>
+  void attach(Field const& field) {
+    if (attached_) reject("a second field is attached to the model (it can have one): make a problem of your own");
+    attached_ = [field] { return std::make_unique<detail::AttachedPartOf<dim, Field>>(field); };
+  }
+
   /// Weight of all regions [N/m3], downwards along the last axis.
   /// \throws InputError after the stress at rest was taken
   void gravity(double unit_weight) {
@@ -157,6 +166,7 @@ class SCARP_EXPORT Model {
   std::vector<Eigen::VectorXd> tractions_;
   LoadHistory later_;  ///< with amplitudes of their own
   std::optional<double> level_;
+  std::function<std::unique_ptr<detail::AttachedPart<dim>>()> attached_;
 };
 
 // Outside of the class, so that a library can contain them.
@@ -247,7 +257,13 @@ Problem<Dim> Model<Dim>::problem(Executor& executor) const {
   LoadHistory loads = later_;
   loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
   loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
-  return {grid_->copy(), std::move(*points), constraints_, std::move(loads), executor};
+  auto attached = attached_ ? attached_() : nullptr;
+  Constraints constraints = constraints_;
+  if (attached) {
+    constraints.add_dofs(attached->extra_dofs());
+    loads.add_dofs(attached->extra_dofs());
+  }
+  return {grid_->copy(), std::move(*points), std::move(constraints), std::move(loads), executor, std::move(attached)};
 }
 
 template <class Element>

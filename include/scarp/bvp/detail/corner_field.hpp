@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/grid.hpp"
+#include "scarp/element/mid_sides.hpp"
+#include "scarp/mesh/mesh.hpp"
+
+namespace scarp::detail {
+
+/// A scalar field with values at the corners of a grid's elements, seen at the grid's points.
+/// \tparam GridType a `Discretisation`
+template <class GridType>
+class CornerField {
+ public:
+  using Element = typename GridType::ElementType;
+  using Corner = LinearOf<Element>;  ///< element of the field
+  using Matrix = Eigen::SparseMatrix<double>;
+  using Triplets = std::vector<Eigen::Triplet<double>>;
+  using CornerMatrix = Eigen::Matrix<double, Corner::nodes, Corner::nodes>;
+  static constexpr int dim = GridType::dim;
+  static constexpr bool is_equal_order = std::is_same_v<Corner, Element>;  ///< as the displacements
+
+  /// What the field sees of an element, in the committed configuration.
+  struct Cell {
+    int number = 0;                                 ///< of the element
+    std::array<int, Corner::nodes> corners{};       ///< numbers of its corners
+    CornerMatrix gradients = CornerMatrix::Zero();  ///< \f$ \int \nabla N_a \cdot \nabla N_b\,dv \f$
+    CornerMatrix deviations =
+        CornerMatrix::Zero();   ///< \f$ \int (N_a - \bar N_a)(N_b - \bar N_b)\,dv \f$ with means over the element
+    double squared_size = 0.0;  ///< of an edge [m2]
+  };
+
+  explicit CornerField(GridType grid) : grid_(std::move(grid)), of_node_(index(grid_.node_count()), -1) {
+    for (auto const& element : grid_.mesh().elements)
+      for (std::size_t a = 0; a < Corner::nodes; ++a) of_node_[index(element[a])] = 0;
+    for (int node = 0; node < grid_.node_count(); ++node) {
+      if (of_node_[index(node)] < 0) continue;
+      of_node_[index(node)] = detail::count(nodes_);
+      nodes_.push_back(node);
+    }
+    Triplets entries;
+    Triplets ones;
+    for (int point = 0; point < grid_.point_count(); ++point) {
+      ShapeValues<Corner> const shape = Corner::shape(GridType::local_point(point).xi);
+      auto const& element = grid_.mesh().elements[index(element_of(point))];
+      for (int a = 0; a < Corner::nodes; ++a) entries.emplace_back(point, of_node_[index(element[index(a)])], shape(a));
+      for (int axis = 0; axis < dim; ++axis) ones.emplace_back(point, voigt_size<dim> * point + axis, 1.0);
+    }
+    shapes_.resize(grid_.point_count(), count());
+    shapes_.setFromTriplets(entries.begin(), entries.end());
+    trace_.resize(grid_.point_count(), voigt_size<dim> * grid_.point_count());
+    trace_.setFromTriplets(ones.begin(), ones.end());
+  }
+
+  GridType const& grid() const { return grid_; }
+  int count() const { return detail::count(nodes_); }  ///< of corners
+  Matrix const& shapes() const { return shapes_; }     ///< values of corners to those of points
+  static int element_of(int point) { return point / GridType::points_per_element; }
+  int region_of(int element) const { return grid_.mesh().element_region[index(element)]; }
+
+  /// Change of each point's volume, over the volume, for a small further displacement from the end of an increment [m].
+  Matrix divergence(Eigen::VectorXd const& increment) const { return trace_ * grid_.strain_operator(increment); }
+
+  /// visit(Cell) for all elements.
+  template <class Visit>
+  void for_each_cell(Visit const& visit) const {
+    for (std::size_t e = 0; e < grid_.mesh().elements.size(); ++e) {
+      Cell cell{.number = static_cast<int>(e)};
+      std::array<int, Corner::nodes> nodes{};
+      for (std::size_t a = 0; a < Corner::nodes; ++a) {
+        nodes[a] = grid_.mesh().elements[e][a];
+        cell.corners[a] = of_node_[index(nodes[a])];
+      }
+      auto const rows =
+          scarp::corners<Corner, dim>(nodes, GridType::follows_motion ? grid_.positions() : grid_.nodes());
+      ShapeValues<Corner> mean = ShapeValues<Corner>::Zero();
+      double volume = 0.0;
+      for (auto const& where : Corner::template rule<2>()) {
+        auto const shape = spatial_shape<Corner>(rows, where);
+        double const share = shape.volume * grid_.thickness();
+        ShapeValues<Corner> const values = Corner::shape(where.xi);
+        cell.gradients += share * shape.gradients * shape.gradients.transpose();
+        cell.deviations += share * values * values.transpose();
+        mean += share * values;
+        volume += share;
+      }
+      cell.deviations -= mean * mean.transpose() / volume;
+      constexpr double cells = Corner::nodes == dim + 1 ? (dim == 2 ? 2.0 : 6.0) : 1.0;  // that share a square or cube
+      cell.squared_size = std::pow(cells * volume / grid_.thickness(), 2.0 / dim);
+      visit(cell);
+    }
+  }
+
+  /// Areas [m2] of a boundary's corners, thickness included, on the initial mesh: \f$ \int N_a\,dA \f$
+  Eigen::VectorXd areas(std::string_view side) const {
+    using Facet = typename Corner::Facet;
+    Eigen::VectorXd areas = Eigen::VectorXd::Zero(count());
+    for (auto const& facet : boundary(grid_.mesh(), side)) {
+      std::array<int, Facet::nodes> nodes{};
+      std::copy_n(facet.begin(), nodes.size(), nodes.begin());
+      auto const rows = scarp::corners<Facet, dim>(nodes, grid_.nodes());
+      for (auto const& where : Facet::quadrature()) {
+        ShapeValues<Facet> const shape = Facet::shape(where.xi);
+        double const size = grid_.thickness() * where.weight * measure<Facet, dim>(rows, where.xi);
+        for (int a = 0; a < Facet::nodes; ++a) areas(of_node_[index(nodes[index(a)])]) += size * shape(a);
+      }
+    }
+    return areas;
+  }
+  /// Numbers of a boundary's corners.
+  std::vector<int> corners_on(std::string_view side) const {
+    std::vector<int> found;
+    for (int const node : grid_.boundary_nodes(side))
+      if (int const corner = of_node_[index(node)]; corner >= 0) found.push_back(corner);
+    return found;
+  }
+  /// Values of corners as those of all nodes.
+  std::vector<double> at_nodes(std::vector<double> const& values) const {
+    std::vector<double> all(of_node_.size());
+    for (auto const& element : grid_.mesh().elements) {
+      ShapeValues<Corner> own;
+      for (int a = 0; a < Corner::nodes; ++a) own(a) = values[index(of_node_[index(element[index(a)])])];
+      for (int a = 0; a < Element::nodes; ++a) all[index(element[index(a)])] = value_at(own, a);
+    }
+    return all;
+  }
+  /// A corner in words.
+  std::string describe(int corner) const {
+    int const node = nodes_[index(corner)];
+    return fmt::format("node {} at ({})", node, listed(grid_.nodes()[index(node)], ", ", "{:.6g}"));
+  }
+
+  void commit(Eigen::VectorXd const& increment) { grid_.commit(increment); }
+  SCARP_MEMBERS_EXCEPT((of_node_, nodes_, shapes_, trace_), grid_)
+
+ private:
+  /// Of the field at a node of an element.
+  static double value_at(ShapeValues<Corner> const& own, int node) {
+    if (node < Corner::nodes) return own(node);
+    if constexpr (PlacesNodes<Element>) {
+      return own.dot(Corner::shape(Element::node_places()[index(node)]));
+    } else if constexpr (HasMidSides<Element>) {
+      auto const [first, second] = Element::mid_sides()[index(node - Corner::nodes)];
+      return (own(first) + own(second)) / 2.0;
+    }
+    return 0.0;
+  }
+
+  GridType grid_;
+  std::vector<int> of_node_;  ///< number of each node's corner, -1 for others
+  std::vector<int> nodes_;    ///< of the corners
+  Matrix shapes_;
+  Matrix trace_;  ///< strains of all points to their changes of volume
+};
+
+}  // namespace scarp::detail

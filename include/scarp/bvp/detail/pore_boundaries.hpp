@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/load_history.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
+
+namespace scarp::detail {
+
+/// Where the pressure of a field of corners is given and where water flows in; everywhere else the boundary is impermeable.
+class PoreBoundaries {
+ public:
+  using Values = Eigen::VectorXd;
+
+  explicit PoreBoundaries(int corners) : given_(index(corners)) { number_unknowns(); }
+
+  /// \throws InputError for a corner whose pressure is given already, and differently; describe(corner): it in words
+  template <class Describe>
+  void prescribe(std::vector<int> const& corners, double pressure, TimeFunction const& amplitude,
+                 Describe const& describe) {
+    Course const course{pressure, amplitude};
+    for (int const corner : corners) {
+      auto& known = given_[index(corner)];
+      if (known && !(*known == course))
+        reject("the pore pressure of {} is given twice (as {} and {} Pa, or with two amplitudes): decide for one",
+               describe(corner), known->pressure, pressure);
+      known = course;
+    }
+    number_unknowns();
+  }
+  /// rates [m3/s]: of all corners
+  void let_in(Values rates, TimeFunction const& amplitude) { inflows_.emplace_back(std::move(rates), amplitude); }
+
+  std::vector<int> const& unknowns() const { return unknowns_; }  ///< Corners whose pressure is not given.
+  bool is_given(std::size_t corner) const { return given_[corner].has_value(); }
+  /// Whether water flows through boundaries of a ground whose pressure nothing sets.
+  bool lacks_outlet() const { return !inflows_.empty() && unknowns_.size() == given_.size(); }
+
+  /// Pressures [Pa] of all corners at a load factor, 0 where they are unknown.
+  Values pressures(double load) const {
+    Values all = Values::Zero(static_cast<Eigen::Index>(given_.size()));
+    for (std::size_t k = 0; k < given_.size(); ++k)
+      if (given_[k]) all(static_cast<Eigen::Index>(k)) = given_[k]->pressure * given_[k]->amplitude(load);
+    return all;
+  }
+  /// Inflow [m3/s] of all corners at a load factor.
+  Values inflow(double load) const {
+    Values all = Values::Zero(static_cast<Eigen::Index>(given_.size()));
+    for (auto const& [rates, amplitude] : inflows_) all += amplitude(load) * rates;
+    return all;
+  }
+  /// First load factor beyond one where these may turn; infinite beyond the last.
+  double next_knot(double load) const {
+    double next = std::numeric_limits<double>::infinity();
+    for (auto const& [rates, amplitude] : inflows_) next = std::min(next, amplitude.next_knot(load));
+    for (auto const& course : given_)
+      if (course && course->pressure != 0.0) next = std::min(next, course->amplitude.next_knot(load));
+    return next;
+  }
+
+ private:
+  struct Course {
+    double pressure = 0.0;
+    TimeFunction amplitude{};
+    friend bool operator==(Course const&, Course const&) = default;
+  };
+
+  void number_unknowns() {
+    unknowns_.clear();
+    for (std::size_t k = 0; k < given_.size(); ++k)
+      if (!given_[k]) unknowns_.push_back(static_cast<int>(k));
+  }
+
+  std::vector<std::optional<Course>> given_;
+  std::vector<std::pair<Values, TimeFunction>> inflows_;
+  std::vector<int> unknowns_;
+};
+
+}  // namespace scarp::detail

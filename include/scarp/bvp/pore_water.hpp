@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/LU>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/detail/corner_field.hpp"
+#include "scarp/bvp/detail/pore_boundaries.hpp"
+#include "scarp/bvp/detail/pore_flow.hpp"
+#include "scarp/bvp/load_history.hpp"
+#include "scarp/constitutive/hydraulic.hpp"
+#include "scarp/core/described.hpp"
+
+namespace scarp {
+
+/// What a `PoreWater` knows of ground and time.
+struct PoreWaterSettings {
+  /// Of the ground, in size [Pa]: it stabilises what an element cannot show, see PoreWater, and weighs the unknowns.
+  double shear_modulus = 0.0;
+  double void_ratio = 0.7;  ///< at the start, of regions without their own
+  TimeFunction clock{};     ///< time [s] over the load factor, not falling; the initial state is at 0 s
+
+  /// \throws InputError for a modulus that is not positive and times that are negative or fall
+  void validate() const {
+    require_positive("shear modulus of the ground with pore water", shear_modulus);
+    double last = 0.0;
+    double knot = clock.next_knot(-std::numeric_limits<double>::infinity());
+    for (; std::isfinite(knot); knot = clock.next_knot(knot)) {
+      if (!(clock(knot) >= last))
+        reject(
+            "the clock of the pore water shows {} s at the load factor {} after {} s (times begin at 0 s and do not "
+            "fall): order them",
+            clock(knot), knot, last);
+      last = clock(knot);
+    }
+  }
+};
+
+/// Water that fills the pores of a ground and flows through them (Biot 1941), as a field that is attached to its elements. Stresses
+/// of the materials are effective ones; the excess u of the pore pressure over that of water at rest [Pa], positive in compression,
+/// is unknown at the corners:
+/// \f$ \int (\sigma' - u I):\nabla w\,dv = W_{ext}, \qquad
+///     \int q \left( \frac{\dot J}{J} + S\,\dot u \right) dv + \int \frac{k}{\mu} \nabla q \cdot \nabla u\,dv = Q_{in} \f$
+/// Force and volume are integrated as the ground is, S and k are those of the `HydraulicProvider`, time steps are implicit (backward
+/// Euler), and volumes are balanced in totals since the start. Weight is a dead load of what water does not carry: below the
+/// water table give the ground its buoyant unit weight.
+///
+/// Quadratic elements have Taylor and Hood's pressures. Those of linear ones are stabilised by their projection onto the mean of
+/// the element (Dohrmann and Bochev 2004; White and Borja 2008), \f$ \frac{1}{2G} \int (q - \bar q)(\Delta u - \overline{\Delta u})\,dv \f$.
+/// In a step that is shorter than elements of size h can show (Vermeer and Verruijt 1981, with the modulus 2G), changes of pressure
+/// are smoothed as in one of that length:
+/// \f$ \max\left(\frac{h^2}{12 G} - \Delta t \frac{k}{\mu}, 0\right) \int \nabla q \cdot \nabla \Delta u\,dv \f$. Neither makes water.
+/// \code
+/// DefaultGrid<Tri6> const grid(mesh);
+/// PoreWater water(grid, ConstantPermeability{.conductivity = 1e-8}, {.shear_modulus = 4e6});
+/// water.drain({"top"});
+/// Model model(grid);
+/// model.attach(water);
+/// \endcode
+/// \tparam GridType a `Discretisation`
+template <class GridType, HydraulicProvider Flow>
+class PoreWater {
+  using Field = detail::CornerField<GridType>;
+  using Values = Eigen::VectorXd;
+  using Matrix = Eigen::SparseMatrix<double>;
+
+ public:
+  static constexpr int dim = GridType::dim;               ///< of the mesh
+  static constexpr bool is_field = true;                  ///< see FieldAttachment
+  using Sides = std::initializer_list<std::string_view>;  ///< names of boundaries
+
+  /// grid: that of the problem, before its first step. Boundaries are impermeable unless they are given.
+  /// \throws InputError for settings or a flow outside of their range
+  PoreWater(GridType grid, Flow const& flow, PoreWaterSettings settings);
+
+  /// Another flow and void ratio for one region.
+  /// \throws InputError for an unknown region, a flow outside of its range and a void ratio that is not positive
+  void region(std::string_view name, Flow const& flow, double void_ratio) { flow_.set(field_, name, flow, void_ratio); }
+  /// Lets water leave through boundaries against the pressure of water at rest.
+  /// \throws InputError for an unknown boundary, and one with another pressure
+  void drain(Sides sides) { prescribe(sides, 0.0); }
+  /// Holds the excess pressure [Pa] of boundaries, such as below a pond, times an amplitude over the load factor.
+  /// \throws InputError for an unknown boundary, a pressure that is not finite, and one with another pressure
+  void prescribe(Sides sides, double pressure, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
+    require_finite("excess pore pressure of a boundary", pressure);
+    for (auto const side : sides)
+      boundaries_.prescribe(field_.corners_on(side), pressure, amplitude, [&](int k) { return field_.describe(k); });
+  }
+  /// Lets water in through boundaries, volume per area and time [m/s] on the initial mesh, times an amplitude over the load factor;
+  /// out where it is negative.
+  /// \throws InputError for an unknown boundary and a rate that is not finite
+  void inflow(Sides sides, double rate, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
+    require_finite("rate of inflow", rate);
+    for (auto const side : sides) boundaries_.let_in(rate * field_.areas(side), amplitude);
+  }
+
+  double time() const { return then_; }  ///< of the committed state [s]
+  /// Excess pressures [Pa] at all nodes, committed; in the middle of a side the mean of its corners.
+  std::vector<double> pressures() const { return field_.at_nodes(pressure_); }
+  std::vector<double> const& void_ratios() const { return flow_.void_ratios(); }  ///< of the points, committed
+  /// Volume [m3] that has left through boundaries of given pressure, committed.
+  double expelled() const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < left_.size(); ++k) sum -= boundaries_.is_given(k) ? left_[k] : 0.0;
+    return sum;
+  }
+
+  // What an attachment needs.
+  int extra_dofs() const {
+    return detail::count(boundaries_.unknowns());
+  }                                        ///< Pressures over scale() [m]; their balance is volume times scale() [N].
+  double scale() const { return scale_; }  ///< [Pa/m]
+  double thickness() const { return field_.grid().thickness(); }
+  Verdict add_forces(std::vector<Vector<dim>> const&, Values const& increment, Values& forces) {
+    evaluate(increment);
+    forces.head(trial_.of_ground.size()) += trial_.of_ground;
+    forces.tail(extra_dofs()) -= scale_ * trial_.left(boundaries_.unknowns());
+    return {};
+  }
+  void add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const;
+  void commit(std::vector<Vector<dim>> const&, Values const& increment);
+
+  // What a field needs.
+  /// \throws InputError for a clock that goes back, time that passes in impermeable ground, and inflow without an outlet
+  void at(double load);
+  double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
+  std::string name() const { return "water"; }
+  /// Volumes that are not balanced, over those that strain and flow displace in the step or a thousandth of the most of any step,
+  /// Euclidean norms.
+  double residual(Values const& unbalanced) const {
+    double const volume = unbalanced.norm() / scale_;
+    return volume == 0.0 ? 0.0 : volume / std::max(trial_.displaced, 1e-3 * most_displaced_);
+  }
+  std::string describe(int number) const {
+    return "pore pressure at " + field_.describe(boundaries_.unknowns()[detail::index(number)]);
+  }
+  std::vector<NodalField> nodal_fields() const { return {{"excess_pore_pressure", pressures()}}; }
+
+  void after_loading() { step_.is_known = false; }  ///< The next step computes its matrices anew.
+  SCARP_MEMBERS_EXCEPT((settings_, boundaries_, scale_, step_, trial_), field_, flow_, pressure_, left_, then_,
+                       most_displaced_)
+
+ private:
+  /// What one step has in common.
+  struct Step : detail::FlowStep {
+    bool is_known = false;
+    double end = 0.0;  ///< [s]
+    Values given{};    ///< pressures of corners where they are given [Pa]
+    Values inflow{};   ///< volume [m3] into the corners' shares
+  };
+  /// What belongs to an increment.
+  struct Trial {
+    Values increment, of_ground, pressure, left, growth;
+    std::vector<VoigtStress<dim>> stresses;
+    double displaced = 0.0;
+  };
+
+  static Eigen::Map<Values const> view(std::vector<double> const& values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+  }
+  void evaluate(Values const& increment);
+
+  PoreWaterSettings settings_;
+  Field field_;
+  detail::PoreFlow<Field, Flow> flow_;
+  detail::PoreBoundaries boundaries_;
+  double scale_ = 0.0;
+  std::vector<double> pressure_;  ///< of the corners, excess [Pa]
+  std::vector<double> left_;      ///< by which the corners' shares have outgrown their water since the start [m3]
+  double then_ = 0.0;             ///< time of the committed state [s]
+  double most_displaced_ = 0.0;
+  Step step_;
+  Trial trial_;
+};
+
+template <class GridType, HydraulicProvider Flow>
+PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterSettings settings)
+    : settings_(detail::validated(settings)),
+      field_(std::move(grid)),
+      flow_(field_, flow, settings.void_ratio),
+      boundaries_(field_.count()),
+      pressure_(detail::index(field_.count()), 0.0),
+      left_(pressure_.size(), 0.0) {
+  double size = 0.0;
+  double cells = 0.0;
+  field_.for_each_cell([&](auto const& cell) {
+    size += std::sqrt(cell.squared_size);
+    cells += 1.0;
+  });
+  scale_ = settings.shear_modulus * cells / size;
+}
+
+template <class GridType, HydraulicProvider Flow>
+void PoreWater<GridType, Flow>::at(double load) {
+  double const end = settings_.clock(load);
+  if (!(end >= then_))
+    reject(
+        "the clock of the pore water goes from {} s to {} s at the load factor {} (time does not go back): order its "
+        "times, or begin at 0 s",
+        then_, end, load);
+  if (boundaries_.lacks_outlet())
+    reject(
+        "water flows through boundaries of ground that is impermeable everywhere else (nothing sets its pressure): "
+        "drain a boundary, or prescribe its pressure");
+  double const duration = end - then_;
+  step_.given = boundaries_.pressures(load);
+  step_.inflow = duration * boundaries_.inflow(load);
+  if (step_.is_known && step_.end == end) return;
+  static_cast<detail::FlowStep&>(step_) = flow_.step(field_, duration, settings_.shear_modulus);
+  step_.end = end;
+  step_.is_known = true;
+}
+
+template <class GridType, HydraulicProvider Flow>
+void PoreWater<GridType, Flow>::evaluate(Values const& increment) {
+  auto const& grid = field_.grid();
+  Values const move = increment.head(grid.dof_count());
+  trial_.increment = increment;
+  trial_.pressure = step_.given;
+  trial_.pressure(boundaries_.unknowns()) =
+      view(pressure_)(boundaries_.unknowns()) + scale_ * increment.tail(extra_dofs());
+  Values const at_points = field_.shapes() * trial_.pressure;
+  std::vector<Gradient<dim>> gradients(detail::index(grid.point_count()));
+  grid.gradients(move, gradients);
+  trial_.growth.resize(at_points.size());
+  trial_.stresses.resize(gradients.size());
+  Values strained(at_points.size());
+  for (Eigen::Index point = 0; point < at_points.size(); ++point) {
+    auto const& gradient = gradients[static_cast<std::size_t>(point)];
+    trial_.growth(point) =
+        GridType::follows_motion ? (Tensor<dim>::Identity() + gradient).determinant() : 1.0 + gradient.trace();
+    strained(point) = step_.volumes(point) * gradient.norm();
+    auto& stress = trial_.stresses[static_cast<std::size_t>(point)];
+    stress.setZero();
+    stress.template head<dim>().setConstant(-at_points(point));
+  }
+  grid.internal_force(move, trial_.stresses, trial_.of_ground);
+  Values const flown = step_.flow * trial_.pressure;
+  Values const grown = step_.volumes.cwiseProduct(trial_.growth) - step_.volumes;
+  trial_.left = view(left_) + field_.shapes().transpose() * grown + flown +
+                step_.change * (trial_.pressure - view(pressure_)) - step_.inflow;
+  trial_.displaced = (field_.shapes().transpose() * strained).norm() + flown.norm();
+}
+
+template <class GridType, HydraulicProvider Flow>
+void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
+  auto const& grid = field_.grid();
+  Values const move = trial_.increment.head(grid.dof_count());
+  int const first = grid.dof_count();
+  std::vector<int> number(pressure_.size(), -1);
+  for (std::size_t k = 0; k < boundaries_.unknowns().size(); ++k)
+    number[detail::index(boundaries_.unknowns()[k])] = first + static_cast<int>(k);
+  auto const add = [&entries](Matrix const& part, double factor, auto const& row_of, auto const& column_of) {
+    for (int column = 0; column < part.outerSize(); ++column) {
+      for (Matrix::InnerIterator entry(part, column); entry; ++entry) {
+        int const to = row_of(static_cast<int>(entry.row()));
+        int const from = column_of(column);
+        if (to >= 0 && from >= 0) entries.emplace_back(to, from, factor * entry.value());
+      }
+    }
+  };
+  auto const node = [](int dof) { return dof; };
+  auto const water = [&](int corner) { return number[detail::index(corner)]; };
+  if (GridType::follows_motion) {
+    std::vector<VoigtTangent<dim>> const none(trial_.stresses.size(), VoigtTangent<dim>::Zero());
+    add(grid.stiffness(move, trial_.stresses, none), 1.0, node, node);
+  }
+  Matrix const divergence = field_.divergence(move);
+  Values const volumes = view(grid.volumes(move));
+  Values const grown = step_.volumes.cwiseProduct(trial_.growth);
+  add(divergence.transpose() * volumes.asDiagonal() * field_.shapes(), -scale_, node, water);
+  add(field_.shapes().transpose() * grown.asDiagonal() * divergence, -scale_, water, node);
+  add(step_.flow + step_.change, -scale_ * scale_, water, water);
+}
+
+template <class GridType, HydraulicProvider Flow>
+void PoreWater<GridType, Flow>::commit(std::vector<Vector<dim>> const&, Values const& increment) {
+  if (trial_.increment.size() != increment.size() || trial_.increment != increment) evaluate(increment);
+  flow_.grow(trial_.growth);
+  pressure_.assign(trial_.pressure.begin(), trial_.pressure.end());
+  left_.assign(trial_.left.begin(), trial_.left.end());
+  most_displaced_ = std::max(most_displaced_, trial_.displaced);
+  field_.commit(increment.head(field_.grid().dof_count()));
+  then_ = step_.end;
+  step_.is_known = false;
+}
+
+}  // namespace scarp
