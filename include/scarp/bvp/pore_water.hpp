@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -134,8 +133,8 @@ class PoreWater {
   void at(double load);
   double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
   std::string name() const { return "water"; }
-  /// Volumes that are not balanced, over those that strain and flow displace in the step or a thousandth of the most of any step,
-  /// Euclidean norms.
+  /// Volumes that are not balanced, over those that strain, flow and the changes of pressure over the shear modulus displace in the
+  /// step, or a thousandth of the most of any step before, Euclidean norms.
   double residual(Values const& unbalanced) const {
     double const volume = unbalanced.norm() / scale_;
     return volume == 0.0 ? 0.0 : volume / std::max(trial_.displaced, 1e-3 * most_displaced_);
@@ -159,7 +158,8 @@ class PoreWater {
   };
   /// What belongs to an increment.
   struct Trial {
-    Values increment, of_ground, pressure, left, growth;
+    Values increment, of_ground, pressure, left;
+    Values growth;  ///< of the points' volumes, over those at the start of the step
     std::vector<VoigtStress<dim>> stresses;
     double displaced = 0.0;
   };
@@ -233,22 +233,21 @@ void PoreWater<GridType, Flow>::evaluate(Values const& increment) {
   grid.gradients(move, gradients);
   trial_.growth.resize(at_points.size());
   trial_.stresses.resize(gradients.size());
-  Values strained(at_points.size());
+  Values displaced = (at_points - field_.shapes() * view(pressure_)).cwiseAbs() / settings_.shear_modulus;
   for (Eigen::Index point = 0; point < at_points.size(); ++point) {
     auto const& gradient = gradients[static_cast<std::size_t>(point)];
-    trial_.growth(point) =
-        GridType::follows_motion ? (Tensor<dim>::Identity() + gradient).determinant() : 1.0 + gradient.trace();
-    strained(point) = step_.volumes(point) * gradient.norm();
+    trial_.growth(point) = GridType::follows_motion ? detail::volume_growth<dim>(gradient) : gradient.trace();
+    displaced(point) += gradient.norm();
     auto& stress = trial_.stresses[static_cast<std::size_t>(point)];
     stress.setZero();
     stress.template head<dim>().setConstant(-at_points(point));
   }
   grid.internal_force(move, trial_.stresses, trial_.of_ground);
   Values const flown = step_.flow * trial_.pressure;
-  Values const grown = step_.volumes.cwiseProduct(trial_.growth) - step_.volumes;
+  Values const grown = step_.volumes.cwiseProduct(trial_.growth);
   trial_.left = view(left_) + field_.shapes().transpose() * grown + flown +
                 step_.change * (trial_.pressure - view(pressure_)) - step_.inflow;
-  trial_.displaced = (field_.shapes().transpose() * strained).norm() + flown.norm();
+  trial_.displaced = (field_.shapes().transpose() * step_.volumes.cwiseProduct(displaced)).norm() + flown.norm();
 }
 
 template <class GridType, HydraulicProvider Flow>
@@ -276,7 +275,8 @@ void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>
   }
   Matrix const divergence = field_.divergence(move);
   Values const volumes = view(grid.volumes(move));
-  Values const grown = step_.volumes.cwiseProduct(trial_.growth);
+  Values grown = step_.volumes;
+  if (GridType::follows_motion) grown += step_.volumes.cwiseProduct(trial_.growth);
   add(divergence.transpose() * volumes.asDiagonal() * field_.shapes(), -scale_, node, water);
   add(field_.shapes().transpose() * grown.asDiagonal() * divergence, -scale_, water, node);
   add(step_.flow + step_.change, -scale_ * scale_, water, water);

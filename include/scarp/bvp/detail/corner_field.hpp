@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <array>
 #include <cmath>
@@ -15,6 +16,14 @@
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp::detail {
+
+/// \f$ \det(I + G) - 1 \f$ of a displacement gradient, to its own digits.
+template <int Dim>
+double volume_growth(Gradient<Dim> const& gradient) {
+  double const trace = gradient.trace();
+  double const second = (trace * trace - gradient.cwiseProduct(gradient.transpose()).sum()) / 2.0;
+  return trace + second + (Dim == 3 ? gradient.determinant() : 0.0);
+}
 
 /// A scalar field with values at the corners of a grid's elements, seen at the grid's points.
 /// \tparam GridType a `Discretisation`

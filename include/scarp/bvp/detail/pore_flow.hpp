@@ -40,10 +40,10 @@ class PoreFlow {
   }
   std::vector<double> const& void_ratios() const { return void_ratio_; }  ///< of the points
 
-  /// Makes pores grow with their points. growth: volume at the end over that at the start, since grains keep theirs
+  /// Makes pores grow with their points. growth: of the volume, over that at the start; grains keep theirs
   void grow(Eigen::VectorXd const& growth) {
     for (std::size_t point = 0; point < void_ratio_.size(); ++point)
-      void_ratio_[point] = (1.0 + void_ratio_[point]) * growth(static_cast<Eigen::Index>(point)) - 1.0;
+      void_ratio_[point] += (1.0 + void_ratio_[point]) * growth(static_cast<Eigen::Index>(point));
   }
 
   /// A step from the committed state that takes so long [s]; shear_modulus [Pa]: of the ground
