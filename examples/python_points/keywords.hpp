@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <cmath>
 #include <concepts>
@@ -20,7 +21,7 @@ namespace python_points {
 namespace py = pybind11;
 
 template <class T>
-concept Keyword = std::is_arithmetic_v<T> || std::same_as<T, std::string>;
+concept Keyword = std::is_arithmetic_v<T> || std::same_as<T, std::string> || std::same_as<T, std::vector<double>>;
 
 /// Calls task(name, member) for the numbers and words among the members of a material and of its parts.
 template <class Material, class Task>

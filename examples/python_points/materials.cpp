@@ -2,6 +2,8 @@
 // The providers, compiled once for the module and for same_path.
 #include "materials.hpp"
 
+#include <dlfcn.h>
+
 namespace python_points {
 
 namespace {
@@ -18,6 +20,19 @@ Material<Dim> material_of(std::string const& kind, std::string_view bits, Prepar
 }
 
 }  // namespace
+
+scarp::Umat* umat_in(std::string const& file) {
+  if (file.empty()) scarp::reject("a UMAT has no file (a shared library is expected): give it, file='soil.so'");
+  // With a slash the loader searches no folders of its own.
+  void* const library = dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library)
+    scarp::reject("the library of a UMAT does not load ({}): compile it, gfortran -O2 -shared -fPIC soil.f -o soil.so",
+                  dlerror());
+  void* const symbol = dlsym(library, "umat_");
+  if (!symbol)
+    scarp::reject("'{}' has no UMAT (the symbol umat_ is expected): name the subroutine UMAT, in C umat_", file);
+  return reinterpret_cast<scarp::Umat*>(symbol);
+}
 
 template <int Dim>
 Material<Dim> prepared(std::string const& kind, std::string_view bits, int threads, Progress const& progress) {

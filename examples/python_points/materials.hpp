@@ -14,9 +14,12 @@
 #include <vector>
 
 #include "../shared/sand/built.hpp"
+#include "../shared/sand/ground.hpp"
 #include "../shared/sand/preparation.hpp"
 #include "../shared/sand/sand_file.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/constitutive/stiffness_floor.hpp"
+#include "scarp/constitutive/umat_provider.hpp"
 #include "scarp/io/packings/packing_file.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/rve/dem_rve.hpp"
@@ -27,6 +30,9 @@ namespace python_points {
 
 /// progress(packings that are done, packings in all, what happens now); may throw to stop the preparation.
 using Progress = std::function<void(int, int, std::string const&)>;
+
+/// The UMAT of a shared library, which stays loaded. \throws InputError for one that cannot be loaded or has none
+scarp::Umat* umat_in(std::string const& file);
 
 /// Materials by name: members are the keywords that Python gives, `prepare` is called once before `provider`, which makes a
 /// provider from a prepared or a saved material.
@@ -66,16 +72,74 @@ struct MohrCoulomb {
   }
 };
 
-/// A sand and responses of its packings.
-struct SandOptions {
-  examples::Sand sand{};
-  int packings = 1;  ///< of different seeds, of which every point draws one
+/// A user's UMAT in a shared library.
+template <int Dim>
+struct Umat {
+  std::string file{};                ///< shared library with the symbol umat_
+  std::string name = "UMAT";         ///< CMNAME
+  std::vector<double> properties{};  ///< PROPS
+  std::vector<double> variables{};   ///< STATEV at the start
+  double time_step = 1.0;            ///< of an increment [s]
+  int components = Dim == 2 ? 4 : 6;
+  double surcharge = 0.0;    ///< [Pa]
+  double unit_weight = 0.0;  ///< [N/m3]
+  double k0 = 1.0;
+  SCARP_MEMBERS(file, name, properties, variables, time_step, components, surcharge, unit_weight, k0)
+
+  void prepare(int, Progress const&) {}
+  /// \throws InputError for a library that cannot be loaded or has no UMAT
+  auto provider() const {
+    using Ground = scarp::GeostaticStress<Dim>;
+    return scarp::UmatProvider<Dim, Ground>{.umat = umat_in(file),
+                                            .name = name,
+                                            .properties = properties,
+                                            .variables = variables,
+                                            .initial = Ground{surcharge, unit_weight, k0},
+                                            .time_step = time_step,
+                                            .components = components};
+  }
+};
+
+/// How packings respond.
+struct ResponseOptions {
   double strain_per_step = 1e-5;
   double unbalanced_tolerance = 0.05;
   int min_steps = 20;
   int max_steps = 20'000;
-  std::string file{};  ///< of save_packing, instead of a preparation
-  SCARP_MEMBERS_EXCEPT((sand), packings, strain_per_step, unbalanced_tolerance, min_steps, max_steps, file)
+  double pressure_floor = 0.0;   ///< [Pa], see DemRve
+  double stiffness_floor = 0.0;  ///< share of a fluid point's stiffness, see StiffnessFloor; 0: none
+  SCARP_MEMBERS(strain_per_step, unbalanced_tolerance, min_steps, max_steps, pressure_floor, stiffness_floor)
+
+  template <class Packing, class Source>
+  auto provider(typename Packing::Law const& law, Source source) const {
+    scarp::DemRve<Packing, Source> sand{.law = law,
+                                        .source = std::move(source),
+                                        .strain_per_step = strain_per_step,
+                                        .min_steps = min_steps,
+                                        .max_steps = max_steps,
+                                        .unbalanced_tolerance = unbalanced_tolerance,
+                                        .pressure_floor = pressure_floor};
+    using Any = scarp::AnyProvider<Packing::dim>;
+    return stiffness_floor > 0.0 ? Any(scarp::StiffnessFloor{.provider = std::move(sand), .share = stiffness_floor})
+                                 : Any(std::move(sand));
+  }
+};
+
+/// Whether grains of this shape with linear contacts have an option, by its name with underscores.
+template <class Shape>
+bool has_option(std::string_view name) {
+  if (name == "aspect") return std::is_same_v<Shape, scarp::Ellipse>;
+  if (name == "thickness") return Shape::dim == 2;
+  return name != "exponent" && name != "modulus" && name != "poisson" && !name.starts_with("rolling_");
+}
+
+/// A sand and responses of its packings.
+struct SandOptions {
+  examples::Sand sand{};
+  int packings = 1;     ///< of different seeds, of which every point draws one
+  std::string file{};   ///< of save_packing, instead of a preparation
+  ResponseOptions responses{};
+  SCARP_MEMBERS_EXCEPT((sand), packings, file, responses)
 };
 
 template <class Shape>
@@ -85,17 +149,10 @@ struct Sand {
   SandOptions options{.sand = {.shape = examples::name_in_sand<Shape>}};
   std::vector<Packing> packings{};
 
-  /// Whether grains of this shape with linear contacts have an option, by its name with underscores.
-  static bool has(std::string_view name) {
-    if (name == "aspect") return std::is_same_v<Shape, scarp::Ellipse>;
-    if (name == "thickness") return Shape::dim == 2;
-    return name != "exponent" && name != "modulus" && name != "poisson" && !name.starts_with("rolling_");
-  }
-
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
     examples::Sand::members(self.options.sand, [&](std::string_view name, auto& member) {
-      if (has(name)) visit(name, member);
+      if (has_option<Shape>(name)) visit(name, member);
     });
     visit("options", self.options);
     visit("packings", self.packings);
@@ -129,12 +186,7 @@ struct Sand {
     using Same = scarp::SamePacking<Packing>;
     scarp::RandomChoice<Same> pool{{}, options.sand.seed};
     for (auto const& packing : packings) pool.sources.push_back({packing});
-    return scarp::DemRve<Packing, scarp::RandomChoice<Same>>{.law = law(),
-                                                             .source = std::move(pool),
-                                                             .strain_per_step = options.strain_per_step,
-                                                             .min_steps = options.min_steps,
-                                                             .max_steps = options.max_steps,
-                                                             .unbalanced_tolerance = options.unbalanced_tolerance};
+    return options.responses.provider<Packing>(law(), std::move(pool));
   }
 
   /// The grains and the law of a packing's file, from the .sand beside it, but for keywords that are given.
@@ -152,19 +204,75 @@ struct Sand {
   }
 };
 
+/// Level ground of a sand: a packing for every depth, see LevelGround.
+template <class Shape>
+struct LevelGround {
+  using Packing = examples::Linear<Shape>;
+
+  examples::Sand sand{.shape = examples::name_in_sand<Shape>};
+  std::vector<double> depths{};  ///< [m] of the points
+  double surcharge = 4e3;        ///< [Pa]
+  double unit_weight = 15.68e3;  ///< [N/m3]
+  ResponseOptions responses{};
+
+  struct Compressed {
+    double depth = 0.0;  ///< [m]
+    Packing packing{};
+    SCARP_MEMBERS(depth, packing)
+  };
+  std::vector<Compressed> column{};  ///< by depth
+
+  template <class Self, class Visit>
+  static void members(Self& self, Visit&& visit) {
+    examples::Sand::members(self.sand, [&](std::string_view name, auto& member) {
+      if (has_option<Shape>(name) && name != "k0" && name != "vertical_pressure") visit(name, member);
+    });
+    visit("depths", self.depths);
+    visit("surcharge", self.surcharge);
+    visit("unit_weight", self.unit_weight);
+    visit("responses", self.responses);
+    visit("column", self.column);
+  }
+
+  auto law() const { return examples::law_of<typename Packing::Law>(sand); }
+
+  /// \throws InputError, PreparationError
+  void prepare(int, Progress const& progress) {
+    with_packing(examples::Built<Packing>{}, sand, [](auto, auto const&) {});
+    auto ground = examples::level_ground<Packing>(sand, law(), sand.seed, unit_weight, surcharge, depths);
+    column.clear();
+    for (std::size_t k = 0; k < ground.depths.size(); ++k)
+      column.push_back({ground.depths[k], std::move(ground.packings[k])});
+    auto const count = static_cast<int>(column.size());
+    progress(count, count, fmt::format("{} packings of the ground are compressed", count));
+  }
+
+  auto provider() const {
+    scarp::PackingsByDepth<Packing> ground;
+    for (auto const& [depth, packing] : column) {
+      ground.depths.push_back(depth);
+      ground.packings.push_back(packing);
+    }
+    return responses.provider<Packing>(law(), std::move(ground));
+  }
+};
+
 /// Calls task(std::type_identity<Material>) with the material of a name. \throws InputError for an unknown one
 template <int Dim, class Task>
 auto with_material(std::string const& kind, Task const& task) {
   if (kind == "linear_elastic") return task(std::type_identity<LinearElastic<Dim>>{});
   if (kind == "mohr_coulomb") return task(std::type_identity<MohrCoulomb<Dim>>{});
+  if (kind == "umat") return task(std::type_identity<Umat<Dim>>{});
   if constexpr (Dim == 2) {
     if (kind == "discs") return task(std::type_identity<Sand<scarp::Disc>>{});
     if (kind == "ellipses") return task(std::type_identity<Sand<scarp::Ellipse>>{});
+    if (kind == "ground_of_discs") return task(std::type_identity<LevelGround<scarp::Disc>>{});
+    if (kind == "ground_of_ellipses") return task(std::type_identity<LevelGround<scarp::Ellipse>>{});
   } else {
     if (kind == "spheres") return task(std::type_identity<Sand<scarp::Sphere>>{});
   }
-  scarp::reject("there is no material '{}' in {} dimensions (linear_elastic, mohr_coulomb, {}): choose one", kind, Dim,
-                Dim == 2 ? "discs, ellipses" : "spheres");
+  scarp::reject("there is no material '{}' in {} dimensions (linear_elastic, mohr_coulomb, umat, {}): choose one", kind,
+                Dim, Dim == 2 ? "discs, ellipses, ground_of_discs, ground_of_ellipses" : "spheres");
 }
 
 /// A provider and the bits of what it was made from, packings included.

@@ -12,73 +12,14 @@
 
 #include "../shared/sand/sand_file.hpp"
 #include "keywords.hpp"
+#include "point_views.hpp"
 #include "points.hpp"
+#include "problems.hpp"
 #include "scarp/core/build_info.hpp"
-#include "scarp/core/interruption.hpp"
-#include "scarp/tensor/geo.hpp"
+#include "signals.hpp"
 
 namespace python_points {
 namespace {
-
-constexpr auto number_size = static_cast<py::ssize_t>(sizeof(double));
-
-/// Ends long work by the exception of Python's signal handlers (Ctrl-C), which run where this was made: on Python's main thread.
-class Signals {
- public:
-  /// Runs the handlers every now and then. \throws py::error_already_set once one of them has failed
-  void look() {
-    if (is_over_) std::rethrow_exception(failure_);
-    auto const moment = std::chrono::steady_clock::now();
-    if (std::this_thread::get_id() != owner_ || moment < next_) return;
-    next_ = moment + std::chrono::milliseconds(100);
-    py::gil_scoped_acquire const acquire;
-    if (PyErr_CheckSignals() == 0) return;
-    failure_ = std::make_exception_ptr(py::error_already_set());
-    is_over_ = true;
-    std::rethrow_exception(failure_);
-  }
-
- private:
-  std::thread::id owner_ = std::this_thread::get_id();
-  std::chrono::steady_clock::time_point next_{};
-  std::exception_ptr failure_;
-  std::atomic<bool> is_over_ = false;
-  std::function<void()> const look_ = [this] { look(); };
-  scarp::InterruptionCheck const check_{&look_};
-};
-
-template <int Dim>
-py::dict quantities(Points<Dim>& points, int point) {
-  py::dict named;
-  for (auto const& [name, value] : points.now().quantities(point)) named[py::str(std::string(name))] = value;
-  auto const stress = points.now().committed_stress(point);
-  if constexpr (Dim == 2) {
-    auto const [p, q] = scarp::geo::plane_stress(stress);
-    named["p"] = p, named["q"] = q;
-  } else {
-    auto const tensor = scarp::from_voigt_stress<3>(stress);
-    double const p = -tensor.trace() / 3.0;
-    named["p"] = p, named["q"] = std::sqrt(1.5) * (tensor + p * scarp::Tensor<3>::Identity()).norm();
-  }
-  return named;
-}
-
-/// Grains and contacts of a plane packing; nothing of other materials.
-py::object picture(Points<2>& points, int point) {
-  auto shown = points.now().picture<scarp::PackingPicture>(point);
-  if (!shown) return py::none();
-  using Picture = scarp::PackingPicture;
-  static_assert(sizeof(Picture::Grain) >= 6 * sizeof(double) && sizeof(Picture::Contact) >= 7 * sizeof(double));
-  py::dict named;
-  py::array_t<double> cell({2, 2});
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j) cell.mutable_at(i, j) = shown->cell(i, j);
-  }
-  named["cell"] = cell;
-  named["grains"] = array_of<double>(std::move(shown->grains), {6}, {number_size});
-  named["contacts"] = array_of<double>(std::move(shown->contacts), {7}, {number_size});
-  return named;
-}
 
 template <int Dim>
 py::tuple respond(Points<Dim>& points, py::object const& given, int threads, int refinements, bool tangents) {
@@ -275,7 +216,9 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
           "work",
           [](All& self) { return of_all<long>(self.now().size(), {}, {}, [&](int k) { return self.now().work(k); }); },
           "DEM steps of each point's last response.")
-      .def("quantities", &quantities<Dim>, py::arg("point"), "Named numbers of a committed state; p and q [Pa].")
+      .def(
+          "quantities", [](All& self, int point) { return quantities(self.now(), point); }, py::arg("point"),
+          "Named numbers of a committed state; p and q [Pa].")
       .def(
           "copy",
           [](All& self, int to, All& source, int point, bool mirrored) {
@@ -301,6 +244,7 @@ PYBIND11_MODULE(_points, module) {
   PYBIND11_NUMPY_DTYPE(scarp::Verdict, status, reason);
   bind<2>(module, "Material", "Points");
   bind<3>(module, "MaterialInSpace", "PointsInSpace");
+  bind_problems(module);
   module.def("sand_keywords", &sand_keywords);
   module.def("load", [](std::filesystem::path const& path) {
     auto const file = scarp::read_file(path);
@@ -310,7 +254,7 @@ PYBIND11_MODULE(_points, module) {
   module.attr("statuses") = names_up_to<scarp::Status::failed>();
   module.attr("reasons") = names_up_to<scarp::Reason::too_few_steps>();
   static_cast<py::class_<Points<2>>>(module.attr("Points"))
-      .def("picture", &picture, py::arg("point"),
+      .def("picture", [](Points<2>& self, int point) { return picture(self.now(), point); }, py::arg("point"),
            "Of a packing: cell (columns are base vectors [m]), grains (x, y, half axes a and b, axis of a), contacts "
            "(from x, y, branch x, y, "
            "normal x, y, normal force [N]).");

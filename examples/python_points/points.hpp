@@ -17,7 +17,7 @@
 
 namespace python_points {
 
-inline constexpr scarp::FileFormat points_format{"SCARPPYP", 3, "file of points of Python", "MaterialPoints.save"};
+inline constexpr scarp::FileFormat points_format{"SCARPPYP", 4, "file of points of Python", "MaterialPoints.save"};
 
 /// Where points are and what they weigh.
 template <int Dim>

@@ -5,6 +5,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
 #include "scarp/fault/free_field_fault.hpp"
+#include "scarp/solver/thread_executor.hpp"
 #include "support/elements.hpp"
 
 namespace {

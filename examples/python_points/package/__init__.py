@@ -15,7 +15,9 @@ except ImportError as missing:
     raise ImportError(f"scarp's compiled part does not load in Python {sys.version.split()[0]} ({missing}; there is {_built}): run the Python that it was built "
                       "for, or build it with -D Python_EXECUTABLE=" + sys.executable) from missing
 from ._points import build, load, reasons, statuses
+from .meshes import Mesh, box_mesh, read_gmsh
 from .micro_simulation import MicroSimulation
+from .problem import Analysis, FieldSeries, Model, NotConverged, PythonMaterial, Run, load_analysis
 
 
 def _maker(kind, spaces):
@@ -32,8 +34,11 @@ def _maker(kind, spaces):
 
 linear_elastic = _maker("linear_elastic", (2, 3))
 mohr_coulomb = _maker("mohr_coulomb", (2, 3))
+umat = _maker("umat", (2, 3))
 discs = _maker("discs", (2,))
 ellipses = _maker("ellipses", (2,))
+ground_of_discs = _maker("ground_of_discs", (2,))
+ground_of_ellipses = _maker("ground_of_ellipses", (2,))
 spheres = _maker("spheres", (3,))
 
 

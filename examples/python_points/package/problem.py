@@ -1,0 +1,499 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Boundary-value problems as they are written down, and their way through a load factor."""
+from __future__ import annotations
+
+import dataclasses
+import os
+import pickle
+import time
+import warnings
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _points
+from .meshes import Mesh, Path
+
+Floats = npt.NDArray[np.float64]
+Sides = Union[str, Sequence[str]]
+Amplitude = Sequence[Tuple[float, float]]
+Observer = Callable[["Analysis", Any], Optional[bool]]
+
+
+def _names(sides: Sides) -> List[str]:
+    return [sides] if isinstance(sides, str) else list(sides)
+
+
+def _knots(amplitude: Optional[Amplitude]) -> Optional[List[Tuple[float, float]]]:
+    return None if amplitude is None else [(float(load), float(value)) for load, value in amplitude]
+
+
+class Model:
+    """A boundary-value problem as it is written down: boundaries held and loaded by name, materials by region, weight.
+
+    The materials' initial stresses need not balance the loads: what is missing is held by forces which fade while the load factor goes from 0 to
+    1, and the loads grow meanwhile. That is how ground is balanced, and how it is excavated: give the mesh without what is taken away, and the
+    stress that was there. An `amplitude` is a list of (load factor, value), linear between them; by default it is the load factor itself for motions,
+    and 0 to 1 for loads.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    kinematics : str
+        "updated_lagrangian" for large displacements, or "small_strain".
+    thickness : float
+        Out of the plane [m].
+
+    Raises
+    ------
+    ValueError
+        For an invalid mesh, naming the element or node.
+
+    Examples
+    --------
+    >>> import scarp
+    >>> model = scarp.Model(scarp.box_mesh("quad4", [2.0, 1.0], [4, 2]))
+    >>> model.fix(["left", "right"], axis=0)
+    >>> model.fix("bottom")
+    >>> model.gravity(18e3)
+    >>> model.material("soil", scarp.linear_elastic(young=20e6, poisson=0.3, **model.geostatic(0.5)))
+    >>> scarp.Analysis(model).to(1.0).steps > 0
+    True
+    """
+
+    def __init__(self, mesh: Mesh, kinematics: str = "updated_lagrangian", thickness: float = 1.0) -> None:
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"the mesh is {type(mesh).__name__} (a scarp.Mesh is expected): make one by scarp.read_gmsh, scarp.box_mesh or scarp.Mesh")
+        self.mesh = mesh
+        self._made = (mesh, kinematics, thickness)
+        self._calls: List[Tuple[str, Tuple[Any, ...]]] = []
+        make = _points.Model if mesh.dim == 2 else _points.ModelInSpace
+        self._model = make(mesh.element, mesh.nodes, mesh.elements, mesh.element_region, mesh.regions, mesh.boundaries, kinematics, float(thickness))
+
+    def _do(self, name: str, *values: Any) -> None:
+        getattr(self._model, name)(*values)
+        self._calls.append((name, values))
+
+    def __reduce__(self) -> Any:
+        return _model, (self._made, self._calls)
+
+    @property
+    def dim(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.mesh.dim
+
+    def fix(self, sides: Sides, axis: Optional[int] = None) -> None:
+        """Holds boundaries along an axis, or along all axes."""
+        for one in range(self.dim) if axis is None else [axis]:
+            self._do("fix", _names(sides), one)
+
+    def move(self, sides: Sides, axis: int, rate: float, amplitude: Optional[Amplitude] = None) -> None:
+        """Moves boundaries along an axis by `rate` [m] times the amplitude."""
+        self._do("move", _names(sides), axis, float(rate), _knots(amplitude))
+
+    def gravity(self, unit_weight: float, region: Optional[str] = None) -> None:
+        """Weight [N/m3] of a region, or of all, downwards along the last axis."""
+        self._do("gravity", float(unit_weight), region)
+
+    def traction(self, sides: Sides, force: Sequence[float], amplitude: Optional[Amplitude] = None) -> None:
+        """Force per area [Pa], shape (dim,), on boundaries of the initial mesh."""
+        self._do("traction", _names(sides), np.asarray(force, dtype=float), _knots(amplitude))
+
+    def surcharge(self, sides: Sides, pressure: float, amplitude: Optional[Amplitude] = None) -> None:
+        """Vertical pressure [Pa], downwards, on boundaries of the initial mesh."""
+        self._do("surcharge", _names(sides), float(pressure), _knots(amplitude))
+
+    def set_surface_level(self, height: float) -> None:
+        """Height [m] from which depths are measured, by default that of the highest node."""
+        self._do("set_surface_level", float(height))
+
+    def geostatic(self, k0: float, region: str = "") -> Dict[str, float]:
+        """Stress at rest of level ground, as keywords of a material: `surcharge` [Pa], `unit_weight` [N/m3] and `k0`.
+
+        Weight and surcharges are given before.
+        """
+        rest: Dict[str, float] = self._model.geostatic(float(k0), region)
+        self._calls.append(("geostatic", (float(k0), region)))
+        return rest
+
+    def depths(self, region: str = "") -> Floats:
+        """Depths [m] of the points of a region, or of all, shape (points,)."""
+        return self._model.depths(region)  # type: ignore[no-any-return]
+
+    def positions(self, region: str = "") -> Floats:
+        """Positions [m] of the points of a region, or of all, shape (points, dim)."""
+        return self._model.sites(region)  # type: ignore[no-any-return]
+
+    def dead_load(self) -> Floats:
+        """Weight and surcharges [N] in all, shape (dim,)."""
+        return self._model.dead_load()  # type: ignore[no-any-return]
+
+    def material(self, region: str, material: Any, length: float = 0.0, exact_tangent: Optional[bool] = None) -> None:
+        """The material of a region's points.
+
+        Parameters
+        ----------
+        region : str
+        material : Material or object
+            Of `scarp.linear_elastic` and its kin, or one that is written in Python, see `scarp.PythonMaterial`.
+        length : float
+            Nonlocal length [m]: points see means of the increments around them; 0 for none.
+        exact_tangent : bool
+            Of a material in Python: whether its tangents are the derivatives of its stresses; by default its own attribute of that name, else false.
+        """
+        known = (_points.Material, _points.MaterialInSpace)
+        own = material
+        if not isinstance(material, known):
+            exact = getattr(material, "exact_tangent", False) if exact_tangent is None else exact_tangent
+            own = (_points.python_material if self.dim == 2 else _points.python_material_in_space)(material, bool(exact))
+        elif not isinstance(material, known[self.dim - 2]):
+            raise ValueError(f"the material of '{region}' has {material.dim} dimensions (the mesh has {self.dim}): make it with dim={self.dim}")
+        self._model.material(region, own, float(length))
+        self._calls.append(("material", (region, material, length, exact_tangent)))
+
+
+def _model(made: Tuple[Any, ...], calls: Sequence[Tuple[str, Tuple[Any, ...]]]) -> Model:
+    model = Model(*made)
+    for name, values in calls:
+        if name in ("material", "geostatic"):
+            getattr(model, name)(*values)
+        else:
+            model._do(name, *values)
+    return model
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """How far a run came.
+
+    Attributes
+    ----------
+    load : float
+        Load factor of the committed state.
+    status, reason : str
+        "ok" where the run reached its end, see `scarp.statuses` and `scarp.reasons`.
+    why : str
+        The end in words: where it stopped and why the last attempt was rejected.
+    steps, refused, iterations, inner_steps : int
+        Accepted and rejected load steps, iterations of the solver and DEM steps of all points.
+    largest_residual : float
+        Of the accepted steps.
+    material_seconds, seconds : float
+        Wall time in the points and of the run [s].
+    last_failure : str
+        Why the last rejected attempt was rejected.
+    worst_point : int
+        Its material point, -1 for none.
+    """
+
+    load: float
+    status: str
+    reason: str
+    why: str
+    steps: int
+    refused: int
+    iterations: int
+    inner_steps: int
+    largest_residual: float
+    material_seconds: float
+    seconds: float
+    last_failure: str
+    worst_point: int
+
+
+class NotConverged(RuntimeError):
+    """A run that did not reach its load factor; `run` says how far it came and why."""
+
+    def __init__(self, run: Run) -> None:
+        super().__init__(f"{run.why}: take smaller steps, a larger tolerance, or less load; what was reached is committed")
+        self.run = run
+
+    def __reduce__(self) -> Any:
+        return NotConverged, (self.run,)
+
+
+class Analysis:
+    """A `Model` on its way: a problem, a solver and threads. The load factor begins at 0 and only grows.
+
+    Parameters
+    ----------
+    model : Model
+    tolerance : float
+        Force residual of a load step; by default 1e-6 where all materials have exact tangents, else 5e-3.
+    max_iterations : int
+        Of a load step.
+    first, smallest, largest : float
+        Increments of the load factor.
+    max_displacement_gradient : float
+        Of a step's prediction at any point.
+    threads : int
+        0: as many as the process may use.
+    """
+
+    def __init__(self, model: Model, tolerance: Optional[float] = None, max_iterations: int = 30, first: float = 0.05, smallest: float = 1e-4,
+                 largest: float = 0.1, max_displacement_gradient: float = 0.01, threads: int = 0) -> None:
+        if not isinstance(model, Model):
+            raise TypeError(f"the model is {type(model).__name__} (a scarp.Model is expected): make one")
+        self.model = model
+        self._settings = (None if tolerance is None else float(tolerance), max_iterations, float(first), float(smallest), float(largest),
+                          float(max_displacement_gradient), threads)
+        self._copy = pickle.dumps(model)  # what later calls change in the model is not of this analysis
+        self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings)
+
+    @property
+    def mesh(self) -> Mesh:
+        """Mesh of the model, with the nodes where they were at the start."""
+        return self.model.mesh
+
+    @property
+    def load(self) -> float:
+        """Load factor of the committed state."""
+        return float(self._analysis.load)
+
+    def to(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False) -> Run:
+        """Raises the load factor.
+
+        Parameters
+        ----------
+        load : float
+        observers : callable or sequence of callables
+            Each is called as observer(analysis, step) after every attempt at a load step; `step` has number, load, accepted, status, reason,
+            iterations, residual, worst_point and seconds. One that returns True ends the run. One that takes more time than the run itself is named
+            in a warning.
+        fields : FieldSeries
+            Files for ParaView.
+        progress : bool
+            A bar of tqdm, where it is installed.
+
+        Returns
+        -------
+        Run
+
+        Raises
+        ------
+        NotConverged
+            Where the load factor is not reached, unless an observer has ended the run. What was reached is committed.
+        KeyboardInterrupt
+            Within a second; the committed state remains.
+        """
+        watching = [observers] if callable(observers) else list(observers)
+        seconds = [0.0] * len(watching)
+        bar = _bar(self.load, load) if progress else None
+
+        def attempted(step: Any) -> bool:
+            stops = False
+            for k, observer in enumerate(watching):
+                started = time.perf_counter()
+                stops = bool(observer(self, step)) or stops
+                seconds[k] += time.perf_counter() - started
+            if bar is not None and step.accepted:
+                bar.update(step.load - bar.n)
+            return stops
+
+        try:
+            report = self._analysis.to(float(load), attempted if watching or bar is not None else None, fields)
+        finally:
+            if bar is not None:
+                bar.close()
+        run = Run(**report)
+        for observer, spent in zip(watching, seconds):
+            if spent > max(run.seconds, 1.0):
+                name = getattr(observer, "__qualname__", type(observer).__name__)
+                warnings.warn(f"the observer {name} took {spent:.1f} s (the run itself {run.seconds:.1f} s): let it do less", stacklevel=2)
+        if run.status not in ("ok", "fluid") and run.reason != "interrupted":
+            raise NotConverged(run)
+        return run
+
+    def displacement(self, side: str, axis: int) -> float:
+        """Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign."""
+        return float(self._analysis.displacement(side, axis))
+
+    def reaction(self, side: str) -> Floats:
+        """Force [N] of the support of a boundary, shape (dim,): what its nodes carry less their loads."""
+        return self._analysis.reaction(side)  # type: ignore[no-any-return]
+
+    def boundary_nodes(self, side: str) -> npt.NDArray[np.int32]:
+        """Numbers of a boundary's nodes, increasing."""
+        return self._analysis.boundary_nodes(side)  # type: ignore[no-any-return]
+
+    @property
+    def positions(self) -> Floats:
+        """Positions [m] of the nodes, shape (nodes, dim)."""
+        return self._analysis.positions()  # type: ignore[no-any-return]
+
+    @property
+    def displacements(self) -> Floats:
+        """Displacements [m] of the nodes, shape (nodes, dim)."""
+        return self.positions - np.asarray(self.mesh.nodes)
+
+    @property
+    def stresses(self) -> Floats:
+        """Cauchy stress [Pa] of the points, tension positive, shape (points, 3 or 6): xx, yy, xy, or xx, yy, zz, yz, zx, xy."""
+        return self._analysis.stresses()  # type: ignore[no-any-return]
+
+    @property
+    def deformations(self) -> Floats:
+        """Gradient of the present by the initial position at the points, shape (points, dim, dim)."""
+        return self._analysis.deformations()  # type: ignore[no-any-return]
+
+    @property
+    def point_positions(self) -> Floats:
+        """Positions [m] of the points, shape (points, dim)."""
+        return self._analysis.point_positions()  # type: ignore[no-any-return]
+
+    @property
+    def point_elements(self) -> npt.NDArray[np.int32]:
+        """Number of each point's element, shape (points,)."""
+        return self._analysis.point_elements()  # type: ignore[no-any-return]
+
+    @property
+    def volumes(self) -> Floats:
+        """Volumes [m3] of the points, thickness included, shape (points,)."""
+        return self._analysis.volumes()  # type: ignore[no-any-return]
+
+    def quantities(self, point: int) -> Dict[str, float]:
+        """Named numbers of a point: p and q [Pa], and those of its material."""
+        return self._analysis.quantities(point)  # type: ignore[no-any-return]
+
+    def picture(self, point: int) -> Any:
+        """Cell, grains and contacts of a point's plane packing, see `MaterialPoints.picture`; None for other materials."""
+        return self._analysis.picture(point)
+
+    def table(self) -> Any:
+        """Positions [m] and stresses [Pa] of the points as a `pandas.DataFrame`."""
+        import pandas
+
+        axes = "xyz"[:self.model.dim]
+        components = ["xx", "yy", "xy"] if self.model.dim == 2 else ["xx", "yy", "zz", "yz", "zx", "xy"]
+        columns: Dict[str, Any] = {axis: self.point_positions[:, k] for k, axis in enumerate(axes)}
+        columns.update({f"stress_{name}": self.stresses[:, k] for k, name in enumerate(components)})
+        return pandas.DataFrame(columns)
+
+    def at_elements(self, of_points: npt.ArrayLike) -> Floats:
+        """Means of numbers of the points over their elements, weighted by volume, shape (elements, ...)."""
+        values = np.asarray(of_points, dtype=float)
+        sums = np.zeros((len(self.mesh.elements), *values.shape[1:]))
+        weights = np.zeros(len(sums))
+        volumes = self.volumes
+        np.add.at(sums, self.point_elements, values * volumes.reshape(-1, *[1] * (values.ndim - 1)))
+        np.add.at(weights, self.point_elements, volumes)
+        return sums / weights.reshape(-1, *[1] * (values.ndim - 1))  # type: ignore[no-any-return]
+
+    def shear_strains(self) -> Floats:
+        """Deviatoric logarithmic strain at the points, shape (points,): difference of the principal strains in the plane."""
+        stretches = np.linalg.svd(self.deformations, compute_uv=False)
+        return np.log(stretches[:, 0] / stretches[:, -1])  # type: ignore[no-any-return]
+
+    def to_meshio(self) -> Any:
+        """The deformed mesh with displacement at the nodes and stress at the elements, as meshio has it."""
+        displacement = np.zeros((len(self.positions), 3))
+        displacement[:, :self.model.dim] = self.displacements
+        return self.mesh.to_meshio(self.positions, {"displacement": displacement},
+                                   {"stress": self.at_elements(self.stresses), "shear_strain": self.at_elements(self.shear_strains())})
+
+    def write(self, file: Path) -> None:
+        """Writes the deformed mesh and its fields by meshio, in the format of the file's name, such as .vtu."""
+        self.to_meshio().write(os.fspath(file))
+
+    def plot(self, values: Optional[npt.ArrayLike] = None, label: str = "shear strain", axes: Any = None) -> Any:
+        """Draws a plane problem: the deformed mesh, coloured by numbers of the elements or points, by default their shear strain.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        if self.model.dim != 2:
+            raise ValueError("plot draws plane problems (this one is in space): write a file for ParaView, analysis.write(\"ground.vtu\")")
+        import matplotlib.pyplot as plt
+        from matplotlib.collections import PolyCollection
+
+        shown = np.asarray(self.shear_strains() if values is None else values, dtype=float)
+        if len(shown) == len(self.volumes):
+            shown = self.at_elements(shown)
+        corners = 3 if self.mesh.element.startswith("tri") else 4
+        axes = plt.subplots(figsize=(8.0, 4.0))[1] if axes is None else axes
+        filled = PolyCollection(self.positions[np.asarray(self.mesh.elements)[:, :corners]], array=shown, cmap="cividis", edgecolors="face", linewidths=0.2)
+        axes.add_collection(filled)
+        axes.autoscale_view()
+        axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
+        axes.figure.colorbar(filled, ax=axes, label=label)
+        return axes
+
+    def save(self, file: Path) -> None:
+        """Saves model and state; `scarp.load_analysis` goes on with the same bits. The file is complete when it appears."""
+        path = os.fspath(file)
+        part = f"{path}.part{os.getpid()}"
+        with open(part, "wb") as stream:
+            pickle.dump(self, stream)
+        os.replace(part, path)
+
+    def __reduce__(self) -> Any:
+        return _analysis, (self._copy, self._settings, self._analysis.bytes())
+
+
+def _bar(begin: float, end: float) -> Any:
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    return tqdm(total=end, initial=begin, unit="load", bar_format="{l_bar}{bar}| {n:.3g}/{total:.3g} [{elapsed}<{remaining}]")
+
+
+def _analysis(model: bytes, settings: Tuple[Any, ...], state: bytes) -> Analysis:
+    analysis = Analysis(pickle.loads(model), *settings)
+    analysis._analysis.read(state)
+    return analysis
+
+
+def load_analysis(file: Path) -> Analysis:
+    """The analysis of a file of `Analysis.save`. As a pickle, such a file can run programs: load only your own.
+
+    Raises
+    ------
+    ValueError
+        For a file that holds something else.
+    """
+    with open(file, "rb") as stream:
+        try:
+            found = pickle.load(stream)
+        except (pickle.UnpicklingError, EOFError, AttributeError, IndexError) as trouble:
+            raise ValueError(f"'{os.fspath(file)}' holds no analysis ({trouble}): give a file of Analysis.save") from trouble
+    if not isinstance(found, Analysis):
+        raise ValueError(f"'{os.fspath(file)}' holds {type(found).__name__} (an analysis is expected): give a file of Analysis.save")
+    return found
+
+
+class FieldSeries:
+    """Fields for ParaView: folder/fields.pvd, written at load factor 0 and then `count` times up to `to`.
+
+    Parameters
+    ----------
+    folder : path
+    to : float
+        Load factor of the last file.
+    count : int
+        Number of files after the first.
+    """
+
+    def __new__(cls, folder: Path, to: float = 1.0, count: int = 10) -> Any:
+        return _points.FieldSeries(folder, float(to), count)
+
+
+class PythonMaterial:
+    """What a material in Python has; it may derive from this class, or only look like it. Slow: for a law that is tried out.
+
+    `start` and one of `respond` and `respond_all` are expected. Strains are those of the increment since the last commit before its rotation, with
+    engineering shear; stresses [Pa] are tension positive and are rotated by scarp; order xx, yy, xy or xx, yy, zz, yz, zx, xy. The functions keep no
+    state of their own: what evolves is in `variables`.
+    """
+
+    exact_tangent = False
+
+    def start(self, position: Floats, depth: float) -> Tuple[npt.ArrayLike, ...]:
+        """Stress, tangent and, where it has some, variables [k] of a point at position [dim] and depth [m]."""
+        raise NotImplementedError
+
+    # def respond(self, strain, stress, variables): stress, tangent and variables at the end of the increment
+    # def respond_all(self, strains, stresses, variables): the same for arrays, a row to each point
+
