@@ -58,6 +58,8 @@ class Mesh:
         self.elements = np.asarray(self.elements)
         if self.element_region is None:
             self.element_region = np.zeros(len(self.elements), dtype=np.int32)
+        if not isinstance(self.boundaries, Mapping):
+            raise TypeError(f"the boundaries are {type(self.boundaries).__name__} (a dictionary of names and facets is expected): give one")
         self.boundaries = {name: np.asarray(facets) for name, facets in self.boundaries.items()}
 
     @property
@@ -97,6 +99,7 @@ class Mesh:
         elements = []
         element_region: List[Any] = []
         names = {(int(tag), int(dim)): name for name, (tag, dim) in mesh.field_data.items()}
+        groups = set(names.values()) if "gmsh:physical" in mesh.cell_data else set()  # meshio has them as sets again
         regions: List[str] = []
 
         def number(name: str) -> int:
@@ -108,7 +111,7 @@ class Mesh:
         physical = mesh.cell_data.get("gmsh:physical")
         for k, block in enumerate(mesh.cells):
             in_sets = {name: np.asarray(numbers[k], dtype=int) for name, numbers in mesh.cell_sets.items()
-                       if not name.startswith("gmsh:") and numbers[k] is not None and len(numbers[k])}
+                       if not name.startswith("gmsh:") and name not in groups and numbers[k] is not None and len(numbers[k])}
             tags = physical[k] if physical is not None else np.zeros(len(block.data), dtype=int)
             if block.type == kind:
                 of_block = np.full(len(block.data), -1)

@@ -119,15 +119,15 @@ class Model:
 
     def depths(self, region: str = "") -> Floats:
         """Depths [m] of the points of a region, or of all, shape (points,)."""
-        return self._model.depths(region)  # type: ignore[no-any-return]
+        return self._model.depths(region)
 
     def positions(self, region: str = "") -> Floats:
         """Positions [m] of the points of a region, or of all, shape (points, dim)."""
-        return self._model.sites(region)  # type: ignore[no-any-return]
+        return self._model.sites(region)
 
     def dead_load(self) -> Floats:
         """Weight and surcharges [N] in all, shape (dim,)."""
-        return self._model.dead_load()  # type: ignore[no-any-return]
+        return self._model.dead_load()
 
     def material(self, region: str, material: Any, length: float = 0.0, exact_tangent: Optional[bool] = None) -> None:
         """The material of a region's points.
@@ -311,50 +311,51 @@ class Analysis:
 
     def reaction(self, side: str) -> Floats:
         """Force [N] of the support of a boundary, shape (dim,): what its nodes carry less their loads."""
-        return self._analysis.reaction(side)  # type: ignore[no-any-return]
+        return self._analysis.reaction(side)
 
     def boundary_nodes(self, side: str) -> npt.NDArray[np.int32]:
         """Numbers of a boundary's nodes, increasing."""
-        return self._analysis.boundary_nodes(side)  # type: ignore[no-any-return]
+        return self._analysis.boundary_nodes(side)
 
     @property
     def positions(self) -> Floats:
         """Positions [m] of the nodes, shape (nodes, dim)."""
-        return self._analysis.positions()  # type: ignore[no-any-return]
+        return self._analysis.positions()
 
     @property
     def displacements(self) -> Floats:
         """Displacements [m] of the nodes, shape (nodes, dim)."""
-        return self.positions - np.asarray(self.mesh.nodes)
+        moved: Floats = self.positions - np.asarray(self.mesh.nodes)
+        return moved
 
     @property
     def stresses(self) -> Floats:
         """Cauchy stress [Pa] of the points, tension positive, shape (points, 3 or 6): xx, yy, xy, or xx, yy, zz, yz, zx, xy."""
-        return self._analysis.stresses()  # type: ignore[no-any-return]
+        return self._analysis.stresses()
 
     @property
     def deformations(self) -> Floats:
         """Gradient of the present by the initial position at the points, shape (points, dim, dim)."""
-        return self._analysis.deformations()  # type: ignore[no-any-return]
+        return self._analysis.deformations()
 
     @property
     def point_positions(self) -> Floats:
         """Positions [m] of the points, shape (points, dim)."""
-        return self._analysis.point_positions()  # type: ignore[no-any-return]
+        return self._analysis.point_positions()
 
     @property
     def point_elements(self) -> npt.NDArray[np.int32]:
         """Number of each point's element, shape (points,)."""
-        return self._analysis.point_elements()  # type: ignore[no-any-return]
+        return self._analysis.point_elements()
 
     @property
     def volumes(self) -> Floats:
         """Volumes [m3] of the points, thickness included, shape (points,)."""
-        return self._analysis.volumes()  # type: ignore[no-any-return]
+        return self._analysis.volumes()
 
     def quantities(self, point: int) -> Dict[str, float]:
         """Named numbers of a point: p and q [Pa], and those of its material."""
-        return self._analysis.quantities(point)  # type: ignore[no-any-return]
+        return self._analysis.quantities(point)
 
     def picture(self, point: int) -> Any:
         """Cell, grains and contacts of a point's plane packing, see `MaterialPoints.picture`; None for other materials."""
@@ -378,12 +379,12 @@ class Analysis:
         volumes = self.volumes
         np.add.at(sums, self.point_elements, values * volumes.reshape(-1, *[1] * (values.ndim - 1)))
         np.add.at(weights, self.point_elements, volumes)
-        return sums / weights.reshape(-1, *[1] * (values.ndim - 1))  # type: ignore[no-any-return]
+        return sums / weights.reshape(-1, *[1] * (values.ndim - 1))
 
     def shear_strains(self) -> Floats:
         """Deviatoric logarithmic strain at the points, shape (points,): difference of the principal strains in the plane."""
         stretches = np.linalg.svd(self.deformations, compute_uv=False)
-        return np.log(stretches[:, 0] / stretches[:, -1])  # type: ignore[no-any-return]
+        return np.log(stretches[:, 0] / stretches[:, -1])
 
     def to_meshio(self) -> Any:
         """The deformed mesh with displacement at the nodes and stress at the elements, as meshio has it."""
