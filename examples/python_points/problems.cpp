@@ -21,6 +21,7 @@
 #include "scarp/observe/field_series.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/analysis.hpp"
+#include "scarp/solver/collapse.hpp"
 #include "signals.hpp"
 
 namespace python_points {
@@ -199,6 +200,24 @@ py::dict advance(OwnAnalysis<Dim>& own, double load, py::object const& observer,
   return report_of(run, why);
 }
 
+py::dict collapse_of(scarp::Collapse const& end) {
+  return py::dict(py::arg("failed") = end.failed, py::arg("load") = end.load, py::arg("ratio") = end.ratio,
+                  py::arg("run") = report_of(end.run, end.why));
+}
+
+template <int Dim>
+py::dict find_collapse(OwnAnalysis<Dim>& own, double load, double failed, double failing, py::object const& observer,
+                       scarp::FieldSeries* series) {
+  return collapse_of(own.at_work([&](scarp::Analysis<Dim>& analysis) {
+    py::gil_scoped_release const release;
+    Signals signals;
+    Watcher<Dim> watcher{observer, series, signals};
+    auto end = scarp::find_collapse(analysis, load, {.failed = failed, .failing = failing}, watcher);
+    if (series) series->ended(analysis.problem(), end.load);
+    return end;
+  }));
+}
+
 /// One number or row for each of `count`.
 template <class Of>
 auto listed_of(int count, Of const& of) {
@@ -211,12 +230,13 @@ py::array places(std::vector<scarp::Vector<Dim>> values) {
   return array_of<double>(std::move(values), {Dim}, {number_size});
 }
 
-template <int Dim>
 scarp::AnalysisSettings settings_of(std::optional<double> tolerance, int max_iterations, double first, double smallest,
-                                    double largest, double max_displacement_gradient, int threads) {
+                                    double largest, double max_displacement_gradient, double tangent_floor,
+                                    int threads) {
   scarp::AnalysisSettings settings;
   settings.solver.tolerance = tolerance;
   settings.solver.max_iterations = max_iterations;
+  settings.solver.rule.exact.floor = tangent_floor;
   settings.stepping.first = first;
   settings.stepping.smallest = smallest;
   settings.stepping.largest = largest;
@@ -294,13 +314,15 @@ void bind(py::module_& module, std::string const& suffix) {
   };
   py::class_<All>(module, ("Analysis" + suffix).c_str(), "See scarp.Analysis.")
       .def(py::init([](Own& model, std::optional<double> tolerance, int max_iterations, double first, double smallest,
-                       double largest, double gradient, int threads) {
-        auto const settings = settings_of<Dim>(tolerance, max_iterations, first, smallest, largest, gradient, threads);
+                       double largest, double gradient, double floor, int threads) {
+        auto const settings =
+            settings_of(tolerance, max_iterations, first, smallest, largest, gradient, floor, threads);
         py::gil_scoped_release const release;
         Signals signals;
         return model.used([&](auto const& own) { return std::make_unique<All>(own, settings); });
       }))
       .def("to", &advance<Dim>)
+      .def("find_collapse", &find_collapse<Dim>)
       .def_property_readonly("load", [](All const& self) { return self.seen().load(); })
       .def("displacement", [](All const& self, std::string const& side,
                               int axis) { return self.seen().displacement(side, axis); })

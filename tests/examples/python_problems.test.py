@@ -246,6 +246,25 @@ for held, material, said in (({"axis": 1}, One(2), "nothing holds"), ({}, scarp.
         expect(failure.run.load < 1.0 and "stopped at the load factor" in str(failure) and said in str(failure), f"{failure}")
         expect(pickle.loads(pickle.dumps(failure)).run == failure.run, "a failure does not pickle")
 
+# A slope of 2 to 1 on a rough base, as in Griffiths and Lane (1999), example 1: 1.4 by finite elements, 1.38 by Bishop and Morgenstern's charts.
+
+
+def slope(factor):
+    mesh = scarp.box_mesh("quad8", [1.0, 10.0], [16, 8])
+    mesh.nodes[:, 0] *= 12.0 + 2.0 * (10.0 - mesh.nodes[:, 1])
+    model = scarp.Model(mesh, kinematics="small_strain")
+    model.fix("left", axis=0)
+    model.fix("bottom")
+    model.gravity(20e3)
+    model.material("soil", scarp.mohr_coulomb(young=100e6, poisson=0.3, cohesion=10e3 / factor, friction=np.arctan(np.tan(np.radians(20)) / factor)))
+    return model
+
+
+found = scarp.reduce_strength(slope, most=2.0, tolerance=0.02)
+expect(1.36 < found.fails and found.stands < 1.43 and found.fails <= 1.02 * found.stands and "fails beyond" in found.why, f"{found}")
+expect(scarp.reduce_strength(slope, least=1.8, most=2.0).stands == 0.0 and scarp.reduce_strength(slope, most=1.1).fails == 0.0, "bounds of a factor")
+refused(ValueError, "factors from 2", lambda: scarp.reduce_strength(slope, least=2.0, most=1.0))
+
 # A material in Python that fails.
 
 
@@ -328,7 +347,9 @@ calls = {
     "surcharge": (lambda *given: scarp.Model(good_mesh).surcharge(*given), ["top", 1.0, [(0, 0)]]),
     "material": (lambda *given: scarp.Model(good_mesh).material(*given), ["soil", scarp.linear_elastic(young=1e6), 1.0, True]),
     "geostatic": (lambda *given: footing(lambda rest: One(2)).geostatic(*given), [0.5, "soil"]),
-    "Analysis": (scarp.Analysis, [footing(lambda rest: One(2, **rest), good_mesh), 1e-3, 5, 0.1, 1e-3, 0.2, 0.1, 1]),
+    "Analysis": (scarp.Analysis, [footing(lambda rest: One(2, **rest), good_mesh), 1e-3, 5, 0.1, 1e-3, 0.2, 0.1, 0.0, 1]),
+    "find_collapse": (lambda *given: scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh), largest=1e300).find_collapse(*given),
+                      [1e-3, [], None, False, 100.0, 10.0]),
     "to": (lambda *given: scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh), largest=1e300).to(*given), [1e-3, [], None, False]),
     "displacement": (scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh)).displacement, ["top", 1]),
     "quantities": (scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh)).quantities, [0]),

@@ -18,8 +18,8 @@ from .materials import (MaterialPoints, discs, ellipses, ground_of_discs, ground
                         umat)
 from .meshes import Mesh, box_mesh, read_gmsh
 from .micro_simulation import MicroSimulation
-from .problem import Analysis, FieldSeries, Model, NotConverged, PythonMaterial, Run, load_analysis
+from .problem import Analysis, Collapse, FieldSeries, Model, NotConverged, PythonMaterial, Run, SafetyFactor, load_analysis, reduce_strength
 
-__all__ = ["Analysis", "FieldSeries", "MaterialPoints", "Mesh", "MicroSimulation", "Model", "NotConverged", "PythonMaterial", "Run", "box_mesh", "build", "discs",
+__all__ = ["Analysis", "Collapse", "FieldSeries", "MaterialPoints", "Mesh", "MicroSimulation", "Model", "NotConverged", "PythonMaterial", "Run", "SafetyFactor", "box_mesh", "build", "discs",
            "ellipses", "ground_of_discs", "ground_of_ellipses", "linear_elastic", "load", "load_analysis", "loads", "mohr_coulomb", "packing", "read_gmsh",
-           "reasons", "spheres", "statuses", "umat"]
+           "reasons", "reduce_strength", "spheres", "statuses", "umat"]

@@ -213,6 +213,44 @@ class NotConverged(RuntimeError):
         return NotConverged, (self.run,)
 
 
+@dataclasses.dataclass(frozen=True)
+class Collapse:
+    """How a load ended that was raised until the ground fails.
+
+    Attributes
+    ----------
+    failed : bool
+        Whether the ground has failed, at the load factor after `load`. A load step that becomes too small is no failure by itself.
+    load : float
+        Last load factor in equilibrium.
+    ratio : float
+        Displacement gradient per load of the last attempt over that of the first step.
+    run : Run
+    """
+
+    failed: bool
+    load: float
+    ratio: float
+    run: Run
+
+
+@dataclasses.dataclass(frozen=True)
+class SafetyFactor:
+    """Factor by which a strength can be divided.
+
+    Attributes
+    ----------
+    stands, fails : float
+        Largest factor in equilibrium, smallest one at which the ground fails; 0 where none was found.
+    why : str
+        How the last run ended that was not in equilibrium.
+    """
+
+    stands: float
+    fails: float
+    why: str
+
+
 class Analysis:
     """A `Model` on its way: a problem, a solver and threads. The load factor begins at 0 and only grows.
 
@@ -227,17 +265,19 @@ class Analysis:
         Increments of the load factor.
     max_displacement_gradient : float
         Of a step's prediction at any point.
+    tangent_floor : float
+        Share of the first tangent that is mixed into exact ones, so that ground flows at its limit load; 1e-4 for limit loads.
     threads : int
         0: as many as the process may use.
     """
 
     def __init__(self, model: Model, tolerance: Optional[float] = None, max_iterations: int = 30, first: float = 0.05, smallest: float = 1e-4,
-                 largest: float = 0.1, max_displacement_gradient: float = 0.01, threads: int = 0) -> None:
+                 largest: float = 0.1, max_displacement_gradient: float = 0.01, tangent_floor: float = 0.0, threads: int = 0) -> None:
         if not isinstance(model, Model):
             raise TypeError(f"the model is {type(model).__name__} (a scarp.Model is expected): make one")
         self.model = model
         self._settings = (None if tolerance is None else float(tolerance), max_iterations, float(first), float(smallest), float(largest),
-                          float(max_displacement_gradient), threads)
+                          float(max_displacement_gradient), float(tangent_floor), threads)
         self._copy = pickle.dumps(model)  # what later calls change in the model is not of this analysis
         self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings)
 
@@ -277,33 +317,27 @@ class Analysis:
         KeyboardInterrupt
             Within a second; the committed state remains.
         """
-        watching = [observers] if callable(observers) else list(observers)
-        seconds = [0.0] * len(watching)
-        bar = _bar(self.load, load) if progress else None
-
-        def attempted(step: Any) -> bool:
-            stops = False
-            for k, observer in enumerate(watching):
-                started = time.perf_counter()
-                stops = bool(observer(self, step)) or stops
-                seconds[k] += time.perf_counter() - started
-            if bar is not None and step.accepted:
-                bar.update(step.load - bar.n)
-            return stops
-
-        try:
-            report = self._analysis.to(float(load), attempted if watching or bar is not None else None, fields)
-        finally:
-            if bar is not None:
-                bar.close()
-        run = Run(**report)
-        for observer, spent in zip(watching, seconds):
-            if spent > max(run.seconds, 1.0):
-                name = getattr(observer, "__qualname__", type(observer).__name__)
-                warnings.warn(f"the observer {name} took {spent:.1f} s (the run itself {run.seconds:.1f} s): let it do less", stacklevel=2)
+        with _Watch(self, observers, load, progress) as watch:
+            run = Run(**self._analysis.to(float(load), watch.observer, fields))
+        watch.warn(run)
         if run.status not in ("ok", "fluid") and run.reason != "interrupted":
             raise NotConverged(run)
         return run
+
+    def find_collapse(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False,
+                      failed: float = 100.0, failing: float = 10.0) -> Collapse:
+        """Raises the load factor until the ground fails: until displacement gradients per load are `failed` times those of this call's first
+        step that moves, or `failing` times where no equilibrium follows. Observers, fields and progress as for `to`.
+
+        Returns
+        -------
+        Collapse
+        """
+        with _Watch(self, observers, load, progress) as watch:
+            end = self._analysis.find_collapse(float(load), float(failed), float(failing), watch.observer, fields)
+        run = Run(**end.pop("run"))
+        watch.warn(run)
+        return Collapse(run=run, **end)
 
     def displacement(self, side: str, axis: int) -> float:
         """Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign."""
@@ -433,6 +467,41 @@ class Analysis:
         return _analysis, (self._copy, self._settings, self._analysis.bytes())
 
 
+class _Watch:
+    """Observers of a run, their times and a bar."""
+
+    def __init__(self, analysis: Analysis, observers: Union[Observer, Sequence[Observer]], load: float, progress: bool) -> None:
+        self._analysis = analysis
+        self._watching = [observers] if callable(observers) else list(observers)
+        self._seconds = [0.0] * len(self._watching)
+        self._bar = _bar(analysis.load, load) if progress else None
+        self.observer = self._attempted if self._watching or self._bar is not None else None
+
+    def _attempted(self, step: _points.Step) -> bool:
+        stops = False
+        for k, observer in enumerate(self._watching):
+            started = time.perf_counter()
+            stops = bool(observer(self._analysis, step)) or stops
+            self._seconds[k] += time.perf_counter() - started
+        if self._bar is not None and step.accepted:
+            self._bar.update(step.load - self._bar.n)
+        return stops
+
+    def warn(self, run: Run) -> None:
+        """Names observers that took more time than the run, and more than a second."""
+        for observer, spent in zip(self._watching, self._seconds):
+            if spent > max(run.seconds, 1.0):
+                name = getattr(observer, "__qualname__", type(observer).__name__)
+                warnings.warn(f"the observer {name} took {spent:.1f} s (the run itself {run.seconds:.1f} s): let it do less", stacklevel=3)
+
+    def __enter__(self) -> "_Watch":
+        return self
+
+    def __exit__(self, *trouble: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
 def _bar(begin: float, end: float) -> Any:
     try:
         from tqdm.auto import tqdm
@@ -463,6 +532,53 @@ def load_analysis(file: Path) -> Analysis:
     if not isinstance(found, Analysis):
         raise ValueError(f"'{os.fspath(file)}' holds {type(found).__name__} (an analysis is expected): give a file of Analysis.save")
     return found
+
+
+def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, most: float = 3.0, tolerance: float = 0.01, load: float = 1.0,
+                    **settings: Any) -> SafetyFactor:
+    """Strength reduction: the largest factor by which the strengths of a model can be divided so that it carries a load factor.
+
+    The interval between a factor that stands and one that fails is halved until it is within the tolerance. Use small strain: in large strain
+    ground may stiffen by its new shape.
+
+    Parameters
+    ----------
+    make_model : callable
+        make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor.
+    least, most : float
+        Factors that are tried first.
+    tolerance : float
+        Of the factor, relative.
+    load : float
+        Load factor that is to be carried.
+    settings
+        Of each `Analysis`; by default those that let Mohr-Coulomb's ground flow.
+
+    Returns
+    -------
+    SafetyFactor
+        `stands` 0 where `least` fails, `fails` 0 where `most` stands or a run is stopped by something else than failure.
+    """
+    usual: Dict[str, Any] = {"tolerance": 1e-4, "max_iterations": 40, "tangent_floor": 1e-4, "largest": 0.05, "max_displacement_gradient": 0.1}
+    why = ""
+    stands = fails = 0.0
+    if not 0.0 < least <= most or not 1e-6 <= tolerance <= 1.0:
+        raise ValueError(f"factors from {least} to {most} within {tolerance} are requested (0 < least <= most and a tolerance of 1e-6 to 1 are expected): "
+                         "correct them")
+    factors = [least, most]
+    while factors:
+        factor = factors.pop(0)
+        end = Analysis(make_model(factor), **{**usual, **settings}).find_collapse(load)
+        if end.run.status in ("ok", "fluid"):
+            stands = factor
+        else:
+            why = f"factor {factor:.4g}: {end.run.why}"
+            fails = factor if end.failed else 0.0
+            if not end.failed or factor == least:
+                break
+        if not factors and stands > 0.0 and fails > stands * (1.0 + tolerance):
+            factors = [(stands + fails) / 2.0]
+    return SafetyFactor(stands, fails, why)
 
 
 class FieldSeries:

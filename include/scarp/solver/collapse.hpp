@@ -86,14 +86,23 @@ struct Collapse {
 };
 
 /// Raises the load factor of an analysis to `to`, or until the ground fails. The first step of this call that moves is what later
-/// ones are compared with: begin where the ground is still stiff.
+/// ones are compared with: begin where the ground is still stiff. An observer watches too; what it ends has not failed.
 /// \throws InputError for settings outside of their range
-template <int Dim>
-Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings = {}) {
+template <int Dim, class Observer>
+Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings, Observer& observer) {
   detail::validated(settings);
   CollapseWatch watch(settings.failed);
+  struct {
+    CollapseWatch& watch;
+    Observer& observer;
+    void attempted(Problem<Dim> const& problem, StepReport const& report) {
+      watch.attempted(problem, report);
+      observer.attempted(problem, report);
+    }
+    bool wants_stop() const { return watch.wants_stop() || observer.wants_stop(); }
+  } both{watch, observer};
   Collapse end;
-  end.run = analysis.to(to, watch);
+  end.run = analysis.to(to, both);
   end.load = end.run.load;
   end.ratio = watch.ratio();
   bool const is_out_of_balance = end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing;
@@ -106,6 +115,12 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
                 end.load, end.ratio)
           : analysis.why(end.run);
   return end;
+}
+/// Without an observer. \throws InputError for settings outside of their range
+template <int Dim>
+Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings = {}) {
+  NoObserver nobody;
+  return find_collapse(analysis, to, settings, nobody);
 }
 
 /// Factor by which a strength can be divided.
@@ -147,5 +162,4 @@ SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction cons
   }
   return found;
 }
-
 }  // namespace scarp
