@@ -99,9 +99,8 @@ MeshTables gmsh_tables(std::filesystem::path const& file, std::string const& ele
     if (!is_known) name = "tri3";  // whose reader says what is wrong with the file
   }
   MeshTables tables;
-  with_element(name, [&]<class Element>(std::type_identity<Element>) {
-    tables = tables_of(name, content.mesh<Element>());
-  });
+  with_element(name,
+               [&]<class Element>(std::type_identity<Element>) { tables = tables_of(name, content.mesh<Element>()); });
   tables.notes = content.notes();
   return tables;
 }

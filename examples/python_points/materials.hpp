@@ -11,8 +11,10 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "../shared/device/made_device.hpp"
 #include "../shared/sand/built.hpp"
 #include "../shared/sand/ground.hpp"
 #include "../shared/sand/preparation.hpp"
@@ -100,6 +102,16 @@ struct Umat {
   }
 };
 
+/// Packings of several seeds, or of several depths.
+template <class Packing>
+struct StartPackings {
+  std::variant<scarp::RandomChoice<scarp::SamePacking<Packing>>, scarp::PackingsByDepth<Packing>> of{};
+
+  Packing const& at(scarp::Site<Packing::dim> const& site) const {
+    return std::visit([&](auto const& source) -> Packing const& { return source.at(site); }, of);
+  }
+};
+
 /// How packings respond.
 struct ResponseOptions {
   double strain_per_step = 1e-5;
@@ -108,20 +120,41 @@ struct ResponseOptions {
   int max_steps = 20'000;
   double pressure_floor = 0.0;   ///< [Pa], see DemRve
   double stiffness_floor = 0.0;  ///< share of a fluid point's stiffness, see StiffnessFloor; 0: none
-  SCARP_MEMBERS(strain_per_step, unbalanced_tolerance, min_steps, max_steps, pressure_floor, stiffness_floor)
+  std::string device = "none";   ///< where packings respond: none (the vector kernel), threads or cuda, see DeviceRve
+  SCARP_MEMBERS(strain_per_step, unbalanced_tolerance, min_steps, max_steps, pressure_floor, stiffness_floor, device)
 
-  template <class Packing, class Source>
-  auto provider(typename Packing::Law const& law, Source source) const {
-    scarp::DemRve<Packing, Source> sand{.law = law,
-                                        .source = std::move(source),
-                                        .strain_per_step = strain_per_step,
-                                        .min_steps = min_steps,
-                                        .max_steps = max_steps,
-                                        .unbalanced_tolerance = unbalanced_tolerance,
-                                        .pressure_floor = pressure_floor};
-    using Any = scarp::AnyProvider<Packing::dim>;
-    return stiffness_floor > 0.0 ? Any(scarp::StiffnessFloor{.provider = std::move(sand), .share = stiffness_floor})
-                                 : Any(std::move(sand));
+  /// grains: of a packing
+  /// \throws InputError for an unknown device, and one that this program or this machine does not have
+  template <class Packing>
+  scarp::AnyProvider<Packing::dim> provider(typename Packing::Law const& law, StartPackings<Packing> source,
+                                            int grains) const {
+    scarp::DemRve<Packing, StartPackings<Packing>> sand{.law = law,
+                                                        .source = std::move(source),
+                                                        .strain_per_step = strain_per_step,
+                                                        .min_steps = min_steps,
+                                                        .max_steps = max_steps,
+                                                        .unbalanced_tolerance = unbalanced_tolerance,
+                                                        .pressure_floor = pressure_floor};
+    if (device == "none") return floored(std::move(sand));
+    if (device != "threads" && device != "cuda")
+      scarp::reject("the device is '{}' (none, threads or cuda is expected): choose one", device);
+    using OnDevice = scarp::DeviceRve<decltype(sand)>;
+    if constexpr (Packing::dim == 3) {  // 400 spheres need more memory in double precision than a block of a card has
+      if (device == "cuda")
+        scarp::reject("the device of spheres is '{}' (none or threads is expected): choose one", device);
+      using Block = scarp::ProcessorDevice<typename OnDevice::Types, typename OnDevice::Damping>;
+      return floored(OnDevice{std::move(sand), std::make_shared<Block>()});
+    } else {
+      auto const where = device == "cuda" ? examples::Device::cuda : examples::Device::threads;
+      return floored(OnDevice{std::move(sand), examples::made_device<OnDevice>(where, grains, 1)});
+    }
+  }
+
+ private:
+  template <class Sand>
+  scarp::AnyProvider<Sand::dim> floored(Sand sand) const {
+    if (stiffness_floor == 0.0) return sand;
+    return scarp::StiffnessFloor{.provider = std::move(sand), .share = stiffness_floor};
   }
 };
 
@@ -136,8 +169,8 @@ bool has_option(std::string_view name) {
 /// A sand and responses of its packings.
 struct SandOptions {
   examples::Sand sand{};
-  int packings = 1;     ///< of different seeds, of which every point draws one
-  std::string file{};   ///< of save_packing, instead of a preparation
+  int packings = 1;    ///< of different seeds, of which every point draws one
+  std::string file{};  ///< of save_packing, instead of a preparation
   ResponseOptions responses{};
   SCARP_MEMBERS_EXCEPT((sand), packings, file, responses)
 };
@@ -186,7 +219,8 @@ struct Sand {
     using Same = scarp::SamePacking<Packing>;
     scarp::RandomChoice<Same> pool{{}, options.sand.seed};
     for (auto const& packing : packings) pool.sources.push_back({packing});
-    return options.responses.provider<Packing>(law(), std::move(pool));
+    return options.responses.provider<Packing>(law(), {std::move(pool)},
+                                               static_cast<int>(packings.front().grain_count()));
   }
 
   /// The grains and the law of a packing's file, from the .sand beside it, but for keywords that are given.
@@ -253,7 +287,7 @@ struct LevelGround {
       ground.depths.push_back(depth);
       ground.packings.push_back(packing);
     }
-    return responses.provider<Packing>(law(), std::move(ground));
+    return responses.provider<Packing>(law(), {std::move(ground)}, sand.grains);
   }
 };
 

@@ -254,10 +254,11 @@ PYBIND11_MODULE(_points, module) {
   module.attr("statuses") = names_up_to<scarp::Status::failed>();
   module.attr("reasons") = names_up_to<scarp::Reason::too_few_steps>();
   static_cast<py::class_<Points<2>>>(module.attr("Points"))
-      .def("picture", [](Points<2>& self, int point) { return picture(self.now(), point); }, py::arg("point"),
-           "Of a packing: cell (columns are base vectors [m]), grains (x, y, half axes a and b, axis of a), contacts "
-           "(from x, y, branch x, y, "
-           "normal x, y, normal force [N]).");
+      .def(
+          "picture", [](Points<2>& self, int point) { return picture(self.now(), point); }, py::arg("point"),
+          "Of a packing: cell (columns are base vectors [m]), grains (x, y, half axes a and b, axis of a), contacts "
+          "(from x, y, branch x, y, "
+          "normal x, y, normal force [N]).");
   constexpr auto build = scarp::build_info();
   module.attr("build") = py::dict(py::arg("version") = scarp::version, py::arg("compiler") = build.compiler,
                                   py::arg("compiler_version") = build.compiler_version,

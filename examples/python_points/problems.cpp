@@ -178,13 +178,13 @@ struct Watcher {
 };
 
 py::dict report_of(scarp::RunReport const& run, std::string why) {
-  return py::dict(py::arg("status") = scarp::name(run.verdict.status), py::arg("reason") = scarp::name(run.verdict.reason),
-                  py::arg("last_failure") = scarp::name(run.last_failure), py::arg("worst_point") = run.worst_point,
-                  py::arg("load") = run.load, py::arg("steps") = run.steps, py::arg("refused") = run.refused,
-                  py::arg("iterations") = run.iterations, py::arg("inner_steps") = run.inner_steps,
-                  py::arg("largest_residual") = run.largest_residual,
-                  py::arg("material_seconds") = run.material_seconds, py::arg("seconds") = run.seconds,
-                  py::arg("why") = std::move(why));
+  return py::dict(
+      py::arg("status") = scarp::name(run.verdict.status), py::arg("reason") = scarp::name(run.verdict.reason),
+      py::arg("last_failure") = scarp::name(run.last_failure), py::arg("worst_point") = run.worst_point,
+      py::arg("load") = run.load, py::arg("steps") = run.steps, py::arg("refused") = run.refused,
+      py::arg("iterations") = run.iterations, py::arg("inner_steps") = run.inner_steps,
+      py::arg("largest_residual") = run.largest_residual, py::arg("material_seconds") = run.material_seconds,
+      py::arg("seconds") = run.seconds, py::arg("why") = std::move(why));
 }
 
 template <int Dim>
@@ -281,9 +281,7 @@ void bind(py::module_& module, std::string const& suffix) {
                              py::arg("k0") = rest.k0);
            })
       .def("depths",
-           [](Own& self, std::string const& region) {
-             return array_of<double>(self.now().depths(region), {}, {});
-           })
+           [](Own& self, std::string const& region) { return array_of<double>(self.now().depths(region), {}, {}); })
       .def("sites",
            [](Own& self, std::string const& region) {
              std::vector<scarp::Vector<Dim>> found;
@@ -308,8 +306,8 @@ void bind(py::module_& module, std::string const& suffix) {
   using All = OwnAnalysis<Dim>;
   auto const bytes = [](All& self) {
     return self.at_work([](scarp::Analysis<Dim>& analysis) {
-      return py::bytes(scarp::detail::framed(
-          analysis_format, [&](scarp::StateWriter& writer) { writer("analysis", analysis); }));
+      return py::bytes(
+          scarp::detail::framed(analysis_format, [&](scarp::StateWriter& writer) { writer("analysis", analysis); }));
     });
   };
   py::class_<All>(module, ("Analysis" + suffix).c_str(), "See scarp.Analysis.")
@@ -324,8 +322,8 @@ void bind(py::module_& module, std::string const& suffix) {
       .def("to", &advance<Dim>)
       .def("find_collapse", &find_collapse<Dim>)
       .def_property_readonly("load", [](All const& self) { return self.seen().load(); })
-      .def("displacement", [](All const& self, std::string const& side,
-                              int axis) { return self.seen().displacement(side, axis); })
+      .def("displacement",
+           [](All const& self, std::string const& side, int axis) { return self.seen().displacement(side, axis); })
       .def("reaction", [](All const& self, std::string const& side) { return self.seen().reaction(side); })
       .def("positions", [](All const& self) { return places<Dim>(self.seen().problem().grid().positions()); })
       .def("boundary_nodes",
@@ -358,8 +356,7 @@ void bind(py::module_& module, std::string const& suffix) {
              auto values = listed_of(grid.point_count(), [&](int k) { return grid.deformation(k); });
              return array_of<double>(std::move(values), {Dim, Dim}, {number_size, Dim * number_size});
            })
-      .def("quantities",
-           [](All const& self, int point) { return quantities(self.seen().problem().points(), point); })
+      .def("quantities", [](All const& self, int point) { return quantities(self.seen().problem().points(), point); })
       .def("picture",
            [](All const& self, int point) -> py::object {
              if constexpr (Dim == 2) {
@@ -377,7 +374,8 @@ void bind(py::module_& module, std::string const& suffix) {
            })
       .def("bytes", bytes);
   module.def(Dim == 2 ? "python_material" : "python_material_in_space", [](py::object const& written, bool exact) {
-    return Material<Dim>{"python", {},
+    return Material<Dim>{"python",
+                         {},
                          exact ? scarp::AnyProvider<Dim>(PythonMaterial<Dim, true>::of(written))
                                : scarp::AnyProvider<Dim>(PythonMaterial<Dim, false>::of(written))};
   });

@@ -118,9 +118,10 @@ struct PythonMaterial {
   /// \throws InputError unless the function returned two or three arrays
   static Parts parts_of(py::object const& returned, char const* function) {
     if (!py::isinstance<py::tuple>(returned) || py::len(returned) < 2 || py::len(returned) > 3)
-      scarp::reject("{} of a material returned {} (a tuple of stress, tangent and, where it has some, variables is "
-                    "expected): correct it",
-                    function, scarp::shortened(std::string(py::repr(returned))));
+      scarp::reject(
+          "{} of a material returned {} (a tuple of stress, tangent and, where it has some, variables is "
+          "expected): correct it",
+          function, scarp::shortened(std::string(py::repr(returned))));
     auto const part = [&](std::size_t k, char const* what) -> Array {
       Array array = Array::ensure(py::tuple(returned)[k]);
       if (!array) {
@@ -194,8 +195,9 @@ struct PythonMaterial {
         auto const strain = scarp::to_engineering_strain<Dim, double>(moves[n].strain);
         State const& from = *requests[n].committed;
         if (static_cast<py::ssize_t>(from.variables.size()) != kept)
-          scarp::reject("a material with respond_all has {} variables at one point and {} at another: start with as many",
-                        kept, from.variables.size());
+          scarp::reject(
+              "a material with respond_all has {} variables at one point and {} at another: start with as many", kept,
+              from.variables.size());
         std::copy_n(strain.data(), size, strains.mutable_data(k, 0));
         std::copy_n(from.stress.data(), size, stresses.mutable_data(k, 0));
         if (kept > 0) std::copy_n(from.variables.data(), kept, variables.mutable_data(k, 0));

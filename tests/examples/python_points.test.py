@@ -190,6 +190,18 @@ for which in "01":
     expect(any(which == trouble[0] and "serve one at a time" in trouble for trouble in troubles), f"call {which} is not rejected")
 expect(counted[0] > 100, f"{counted} rounds during a response")
 
+# The block program of cards, on the processor: sums in another order; saved states go on without it.
+usual, block = (scarp.MaterialPoints(scarp.discs(grains=60, device=device), np.zeros((2, 2))) for device in ("none", "threads"))
+answers = [points.respond(gradients(2, -1e-3))[0] for points in (usual, block)]
+expect(np.abs(answers[0] / answers[1] - 1.0)[:, :2].max() < 1e-6 and not np.array_equal(*answers), f"a device gives {answers[1]}, none {answers[0]}")
+usual.commit(), block.commit()
+usual.unpack([0], block.pack([0]))
+expect(np.array_equal(usual.stresses()[0], block.stresses()[0]), "a state of a device has another stress")
+refused(ValueError, "the device is 'gpu' (none, threads or cuda", lambda: scarp.discs(grains=60, device="gpu"))
+refused(ValueError, "CUDA", lambda: scarp.discs(grains=60, device="cuda"))
+expect(scarp.MaterialPoints(scarp.spheres(grains=60, normal_stiffness=3e5, tangential_stiffness=3e5, device="threads"), np.zeros((1, 3))).respond(
+    gradients(1, -1e-4, 3))[2]["status"][0] == 0, "spheres do not respond on a device")
+
 # A state is not taken over by points whose law is another: contacts would carry another stress.
 held = scarp.MaterialPoints(scarp.discs(grains=60), np.zeros((2, 2)))
 for stiff in (scarp.discs(grains=60, normal_stiffness=3e7), scarp.discs(grains=60, friction=0.05)):

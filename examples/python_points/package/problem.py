@@ -448,11 +448,11 @@ class Analysis:
             shown = self.at_elements(shown)
         corners = 3 if self.mesh.element.startswith("tri") else 4
         axes = plt.subplots(figsize=(8.0, 4.0))[1] if axes is None else axes
-        filled = PolyCollection(self.positions[np.asarray(self.mesh.elements)[:, :corners]], array=shown, cmap="cividis", edgecolors="face", linewidths=0.2)
+        filled = PolyCollection(self.positions[np.asarray(self.mesh.elements)[:, :corners]], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
         axes.add_collection(filled)
         axes.autoscale_view()
         axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
-        axes.figure.colorbar(filled, ax=axes, label=label)
+        axes.figure.colorbar(filled, ax=axes, label=label, shrink=0.6)
         return axes
 
     def save(self, file: Path) -> None:
