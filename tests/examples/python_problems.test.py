@@ -136,6 +136,34 @@ expect(answers[0] == answers[1] == answers[-1], f"{answers}")
 expect(np.allclose(answers, answers[0], rtol=1e-9, atol=0.0), f"another order of nodes gives {answers}")
 expect(answers[0][0] > 0.0, f"the floor of a trench heaves, not {answers[0][0]}")
 
+# A UMAT of a shared library responds as the elasticity that it is.
+elastic = """#include <stddef.h>
+void umat_(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd, double* rpl, double* ddsddt, double* drplde, double* drpldt,
+           double* stran, double* dstran, double* time, double* dtime, double* temp, double* dtemp, double* predef, double* dpred, char* cmname, int* ndi,
+           int* nshr, int* ntens, int* nstatv, double* props) {
+  const double lame = props[0], shear = props[1];
+  for (int i = 0; i < *ntens; ++i)
+    for (int j = 0; j < *ntens; ++j) ddsdde[*ntens * j + i] = i < 3 && j < 3 ? lame + (i == j ? 2 * shear : 0) : i == j ? shear : 0;
+  for (int i = 0; i < *ntens; ++i)
+    for (int j = 0; j < *ntens; ++j) stress[i] += ddsdde[*ntens * j + i] * dstran[j];
+  statev[0] += 1;
+}
+"""
+with tempfile.TemporaryDirectory() as scratch:
+    source, library = pathlib.Path(scratch) / "soil.c", pathlib.Path(scratch) / "soil.so"
+    source.write_text(elastic)
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", source, "-o", library], check=True)
+    found = []
+    for make in (lambda rest: scarp.umat(file=library, properties=[lame, shear], variables=[0.0], **rest),
+                 lambda rest: scarp.linear_elastic(young=young, poisson=poisson, **rest)):
+        analysis = scarp.Analysis(footing(make, kinematics="small_strain"), tolerance=1e-9)
+        analysis.to(2.0)
+        found.append(analysis.stresses)
+    expect(np.abs(found[0] - found[1]).max() < 1e-4, f"a UMAT's stresses are {np.abs(found[0] - found[1]).max()} Pa off")
+    refused(ValueError, "no UMAT (the symbol umat_", lambda: scarp.umat(file=scarp._points.__file__))
+    refused(ValueError, "does not load", lambda: scarp.umat(file=source))
+    refused(ValueError, "a UMAT has no file", lambda: scarp.umat())
+
 # Stages, saved in between: a copy goes on with the same bits, also in another process, with packings and means.
 made = scarp.discs(grains=40, stiffness_floor=1e-4)
 

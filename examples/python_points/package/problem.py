@@ -456,7 +456,7 @@ class Analysis:
         return axes
 
     def save(self, file: Path) -> None:
-        """Saves model and state; `scarp.load_analysis` goes on with the same bits. The file is complete when it appears."""
+        """Saves model and state; `scarp.load_analysis` resumes with the same bits. The file is complete when it appears."""
         path = os.fspath(file)
         part = f"{path}.part{os.getpid()}"
         with open(part, "wb") as stream:

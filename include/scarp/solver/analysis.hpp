@@ -64,7 +64,7 @@ class SCARP_EXPORT Analysis {
   /// A run's end in words: where it stopped and why the last attempt was rejected.
   std::string why(RunReport const& run) const;
 
-  /// What evolves: an analysis of the same model and settings that reads it goes on with the same bits.
+  /// What evolves: an analysis of the same model and settings that reads it resumes with the same bits.
   SCARP_MEMBERS_EXCEPT((settings_, executor_, external_), problem_, session_, load_)
 
  private:
