@@ -386,6 +386,8 @@ calls = {
 tried = refusals = 0
 for name, (call, arguments) in calls.items():
     for position, value in itertools.product(range(len(arguments)), values):
+        if name == "Analysis" and position == 8 and value == 10**9:
+            continue  # as many threads are started as the machine has
         tried += 1
         try:
             call(*arguments[:position], value, *arguments[position + 1:])
@@ -438,7 +440,7 @@ ratio = min(seconds(lambda rest: All(2, **rest)) for _ in range(3)) / min(
 print(f"2000 points: a material on arrays takes {ratio:.2f} times the time of C++")
 expect(ratio < 2.0, f"a material on arrays takes {ratio:.2f} times the time of C++")
 
-for part in (scarp.meshes, scarp.problem):
+for part in (scarp.figures, scarp.meshes, scarp.problem):
     report = doctest.testmod(part, extraglobs={"scarp": scarp})
     expect(report.failed == 0 and report.attempted > 0, f"examples of {part.__name__}: {report}")
 checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", os.devnull, "-p", "scarp"],

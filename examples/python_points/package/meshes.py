@@ -7,6 +7,7 @@ import os
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _points
 
@@ -66,6 +67,12 @@ class Mesh:
     def dim(self) -> int:
         """2 in the plane, 3 in space."""
         return int(_points.dim_of(self.element))
+
+    @property
+    def corners(self) -> npt.NDArray[np.int64]:
+        """Node numbers of the elements' corners, shape (elements, corners)."""
+        numbers = {"tri": 3, "qua": 4, "tet": 4, "hex": 8}[self.element[:3]]
+        return np.asarray(self.elements, dtype=np.int64)[:, :numbers]
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> "Mesh":

@@ -446,9 +446,8 @@ class Analysis:
         shown = np.asarray(self.shear_strains() if values is None else values, dtype=float)
         if len(shown) == len(self.volumes):
             shown = self.at_elements(shown)
-        corners = 3 if self.mesh.element.startswith("tri") else 4
         axes = plt.subplots(figsize=(8.0, 4.0))[1] if axes is None else axes
-        filled = PolyCollection(self.positions[np.asarray(self.mesh.elements)[:, :corners]], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
+        filled = PolyCollection(self.positions[self.mesh.corners], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
         axes.add_collection(filled)
         axes.autoscale_view()
         axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
