@@ -386,7 +386,7 @@ calls = {
 tried = refusals = 0
 for name, (call, arguments) in calls.items():
     for position, value in itertools.product(range(len(arguments)), values):
-        if name == "Analysis" and position == 8 and value == 10**9:
+        if name == "Analysis" and position == 8 and isinstance(value, int) and value > 1000:
             continue  # as many threads are started as the machine has
         tried += 1
         try:
