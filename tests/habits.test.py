@@ -42,7 +42,7 @@ for path in sorted((ROOT / "include" / "scarp").rglob("*.hpp")):
         if namespace := re.match(r"(\}  // )?namespace .*\bdetail\b", line):
             private = namespace[1] is None
         kind = re.match(r"(?:template <.*> )?(?:concept|(?:class|struct|enum class)(?: \[\[nodiscard\]\])?(?!.*;$)) (\w+)\b(?!\s*<)", line)
-        if kind and re.fullmatch(r"Verdict|Evaluation|Response|\w+(?:Report|Result)", kind[1]) and "[[nodiscard]]" not in line:
+        if kind and re.fullmatch(r"Verdict|Evaluation|Response|Collapse|SafetyFactor|\w+(?:Report|Result)", kind[1]) and "[[nodiscard]]" not in line:
             faults.append(f"{path.relative_to(ROOT)}:{number + 1}: {kind[1]} reports failures and may be dropped: make it [[nodiscard]]")
         if kind and not private:
             declared += 1

@@ -12,6 +12,7 @@
 #include "../shared/version_option.hpp"
 #include "report.hpp"
 #include "scarp/core/process.hpp"
+#include "scarp/io/text_lines.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "tables.hpp"
 
@@ -75,8 +76,10 @@ void require_room_for_window(Options const& options) {
 /// \throws InputError for a friction that is given twice
 void read_frictions(Options& options) {
   for (auto const& given : options.frictions) {
-    for (auto const& item : examples::list_items(given))
-      options.preparation_frictions.push_back(std::strtod(item.c_str(), nullptr));
+    for (auto const& item : examples::list_items(given)) {
+      if (scarp::read_number(item, options.preparation_frictions.emplace_back()) != std::errc{})
+        scarp::reject("preparation friction '{}' is no number: give numbers, as 0.1,0.3", item);
+    }
   }
   auto frictions = options.preparation_frictions;
   std::sort(frictions.begin(), frictions.end());

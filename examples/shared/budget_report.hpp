@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "scarp/budget/budget_part.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace examples {
 
@@ -21,9 +21,8 @@ inline scarp::ErrorBounds error_bounds(std::vector<std::string> const& given, sc
     auto const equals = std::min(item.find('='), item.size());
     std::string const name = item.substr(0, equals);
     std::string const number = item.substr(std::min(equals + 1, item.size()));
-    char* end = nullptr;
-    double const bound = std::strtod(number.c_str(), &end);
-    if (number.empty() || *end != '\0' || !(bound >= 0.0))
+    double bound = 0.0;
+    if (scarp::read_number(number, bound) != std::errc{} || !(bound >= 0.0))
       scarp::reject("'{}' is no bound of an error budget (a part, '=' and a number are expected): write residual=1e-3",
                     item);
     bool known = false;

@@ -91,7 +91,7 @@ struct MohrCoulomb {
     if (!predicted.allFinite()) return {stress(committed), {Status::failed, Reason::not_finite}};
     Principal const outer = principal(predicted);
     double plastic_shear = committed.plastic_shear;
-    auto returned = settle(outer.values, plastic_shear);
+    auto returned = softened_return(outer.values, plastic_shear);
     if (!returned.found) return {stress(committed), {Status::failed, Reason::no_return}};
     if constexpr (StrengthType::changes) soften_tangent(returned, outer.values, plastic_shear);
     Tensor<3> const directions = turn * outer.directions;
@@ -132,7 +132,7 @@ struct MohrCoulomb {
   }
 
   /// The return whose plastic shear strain gives the strength that it returned to. plastic_shear: committed, then new
-  Return settle(Vector<3> const& trial, double& plastic_shear) const {
+  Return softened_return(Vector<3> const& trial, double& plastic_shear) const {
     Return returned = returned_at(trial, plastic_shear);
     if constexpr (!StrengthType::changes) {
       plastic_shear += shear_of(returned.plastic_strain);

@@ -55,7 +55,7 @@ class PairResponse {
     }
     if (lanes::any_of(normal_error > broadcast<Lanes>(largest_normal_change_)) ||
         lanes::any_of(deepest > broadcast<Lanes>(unique_minimum_depth_))) [[unlikely]]
-      settle(block, used, start);
+      find_normals(block, used, start);
   }
 
   /// The pairs `at` and following of the block, which are the pairs `start` and following of the list.
@@ -125,7 +125,7 @@ class PairResponse {
 
   /// Searches the touch of those pairs anew for which one step from the last normal is not enough. Rare, hence out of the
   /// loop.
-  [[gnu::noinline, gnu::cold]] void settle(Block& block, std::size_t used, std::size_t start) {
+  [[gnu::noinline, gnu::cold]] void find_normals(Block& block, std::size_t used, std::size_t start) {
     auto const read = [&]<std::size_t Count>(std::size_t field, std::size_t pair, std::array<double, Count>& values) {
       for (std::size_t k = 0; k < Count; ++k) values[k] = static_cast<double>(block.fields[field + k][pair]);
     };

@@ -22,7 +22,7 @@ struct AnalysisSettings {
 /// A `Model` on its way: a problem, a solver and threads. The load factor begins at 0 and only grows.
 /// \code
 /// Analysis analysis(model, {.solver = {.tolerance = 1e-3}});
-/// FieldSeries series("output/slope", 1.0, 4, 1.0);
+/// FieldSeries series("output/slope", {.to = 1.0, .count = 4});
 /// RunReport const run = analysis.to(1.0, series);
 /// if (!run.verdict.acceptable()) fmt::print(stderr, "{}\n", analysis.why(run));
 /// fmt::print("{} m, {} N\n", analysis.displacement("crest", 1), analysis.reaction("bottom").y());

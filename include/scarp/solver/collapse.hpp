@@ -28,7 +28,7 @@ struct StrengthReduction {
   double tolerance = 0.01;      ///< of the factor, relative
   double load = 1.0;            ///< load factor that is to be carried, beyond all knots of loads
   CollapseSettings collapse{};  ///< when ground has failed
-  /// Of each analysis: a floor of the stiffness lets ground flow.
+  /// Settings of each analysis: a floor of the stiffness lets ground flow.
   AnalysisSettings analysis{
       .solver = {.tolerance = 1e-4, .max_iterations = 40, .rule = {.exact = {.floor = 1e-4}}},
       .stepping = {.first = 0.05, .smallest = 1e-4, .largest = 0.05, .max_displacement_gradient = 0.1}};
@@ -75,7 +75,7 @@ class CollapseWatch {
 };
 
 /// How a load ended.
-struct Collapse {
+struct [[nodiscard]] Collapse {
   bool failed = false;  ///< the ground has failed, at the load factor after this one
   double load = 0.0;    ///< last load factor in equilibrium
   double ratio = 1.0;   ///< displacement gradient per load of the last attempt over that of the first step
@@ -124,7 +124,7 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
 }
 
 /// Factor by which a strength can be divided.
-struct SafetyFactor {
+struct [[nodiscard]] SafetyFactor {
   double stands = 0.0;  ///< largest factor in equilibrium
   double fails = 0.0;   ///< smallest factor at which the ground fails; 0 where none was found
   std::string why{};    ///< how the last run ended that was not in equilibrium

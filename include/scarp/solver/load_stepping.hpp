@@ -21,9 +21,9 @@ concept ObservesSteps = requires(Observer& observer, Problem const& problem, Ste
 };
 
 namespace detail {
-/// What is missing, in words.
+/// Names the missing member of a type that is no `ObservesSteps`.
 template <class Observer, class Problem>
-struct MissingOfObserver {
+consteval bool check_observer() {
   static_assert(
       requires(Observer & observer, Problem const& problem, StepReport const& report) {
         observer.attempted(problem, report);
@@ -35,13 +35,13 @@ struct MissingOfObserver {
         { observer.wants_stop() } -> std::convertible_to<bool>;
       },
       "scarp: an observer needs `bool wants_stop()`");
-  static constexpr bool nothing = false;
-};
+  return ObservesSteps<Observer, Problem>;
+}
 }  // namespace detail
 
 /// An `ObservesSteps`; for another type the compiler names the missing member.
 template <class Observer, class Problem>
-concept CheckedObserver = ObservesSteps<Observer, Problem> || detail::MissingOfObserver<Observer, Problem>::nothing;
+concept CheckedObserver = detail::check_observer<Observer, Problem>();
 
 /// An observer that records nothing and never stops a run.
 struct NoObserver {

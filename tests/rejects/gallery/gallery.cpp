@@ -255,6 +255,14 @@ struct Wrong : Frictionless {
 Packing<Disc, Wrong> packing;
 }  // namespace case_options_of_law
 
+// first: interaction_range of a law is never called
+namespace case_option_of_final_law {
+struct Wrong final : Frictionless {
+  double interaction_range(int) const { return 1e-3; }
+};
+Packing<Disc, Wrong> packing;
+}  // namespace case_option_of_final_law
+
 // first: friction_coefficient of a law is never called
 // also: friction of a law is never exchanged
 // also: stored_energy of a law is never called

@@ -44,15 +44,15 @@ class ContactFollowing {
   Verdict follow(LinearisedGround const& ground, Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
     body_.begin();
-    Balance now = balance({increment, still, ground.unbalanced(increment, more), still}, 0.0);
+    Tried now = balance({increment, still, ground.unbalanced(increment, more), still}, 0.0);
     double const goal = std::max(accuracy_, 1e-3 * now.residual);
-    Balance best = now;
+    Tried best = now;
     int fruitless = 0;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
       // Once in any case: a small residual may be that of boundary nodes which have moved alone.
       if (iteration > 0 && (now.residual <= goal || body_.spent())) break;
       Way way;
-      Balance next;
+      Tried next;
       bool const downhill =
           factorize(ground).acceptable() && lay(way, ground, now, more).acceptable() && go_downhill(way, now, next);
       if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
@@ -77,7 +77,7 @@ class ContactFollowing {
   static constexpr double min_share = 0.1;         ///< of Newton's correction
   static constexpr double longest_share = 1024.0;  ///< of one with all contacts held
 
-  struct Balance {
+  struct Tried {
     Eigen::VectorXd increment;
     Eigen::VectorXd unbalanced;
     double residual = 0.0;
@@ -85,9 +85,7 @@ class ContactFollowing {
 
     /// A body that has lost its contacts finds no way back by derivatives.
     bool lost() const { return !(beside < 1.0); }
-    bool improves(Balance const& other) const {
-      return residual < other.residual && (!lost() || beside < other.beside);
-    }
+    bool improves(Tried const& other) const { return residual < other.residual && (!lost() || beside < other.beside); }
   };
 
   /// A straight way through increments, and the ground's forces along it.
@@ -104,7 +102,7 @@ class ContactFollowing {
   }
 
   /// A way from a balance along the correction of the last matrix.
-  Verdict lay(Way& way, LinearisedGround const& ground, Balance const& from, Eigen::VectorXd const& more) {
+  Verdict lay(Way& way, LinearisedGround const& ground, Tried const& from, Eigen::VectorXd const& more) {
     Eigen::VectorXd whole = from.increment;
     if (Verdict const verdict = system_.correct(whole, from.unbalanced); !verdict.acceptable()) return verdict;
     way = {from.increment, whole - from.increment, ground.unbalanced(from.increment, more), {}};
@@ -113,7 +111,7 @@ class ContactFollowing {
   }
 
   /// Halves the way until the balance improves, or doubles it as long as it does.
-  bool go_downhill(Way const& way, Balance const& now, Balance& best) {
+  bool go_downhill(Way const& way, Tried const& now, Tried& best) {
     double share = 1.0;
     best = balance(way, share);
     while (!best.improves(now) && share > min_share) best = balance(way, share *= 0.5);
@@ -122,7 +120,7 @@ class ContactFollowing {
       return false;
     }
     if (share == 1.0) {
-      for (Balance further = balance(way, 2.0); further.improves(best); further = balance(way, 2.0 * share)) {
+      for (Tried further = balance(way, 2.0); further.improves(best); further = balance(way, 2.0 * share)) {
         best = std::move(further);
         share *= 2.0;
       }
@@ -131,7 +129,7 @@ class ContactFollowing {
     return true;
   }
 
-  bool go_by_work(Way const& way, Balance& next) {
+  bool go_by_work(Way const& way, Tried& next) {
     Eigen::VectorXd const free = system_.gather(way.direction);
     auto const work = [&](double share) { return system_.gather(balance(way, share).unbalanced).dot(free); };
     auto const share = zero_power_step(work, longest_share);
@@ -141,8 +139,8 @@ class ContactFollowing {
   }
 
   /// The attachment's trial state then belongs to the increment.
-  Balance balance(Way const& way, double share) {
-    Balance now;
+  Tried balance(Way const& way, double share) {
+    Tried now;
     now.increment = way.start + share * way.direction;
     Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
     body_.settle(now.increment, -of_ground, 0.1 * accuracy_);
