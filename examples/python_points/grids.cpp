@@ -6,43 +6,12 @@
 #include <string_view>
 #include <type_traits>
 
-#include "scarp/bvp/default_integration.hpp"
-#include "scarp/element/hex20.hpp"
-#include "scarp/element/hex8.hpp"
-#include "scarp/element/quad4.hpp"
-#include "scarp/element/quad8.hpp"
-#include "scarp/element/tet10.hpp"
-#include "scarp/element/tet4.hpp"
-#include "scarp/element/tri3.hpp"
-#include "scarp/element/tri6.hpp"
+#include "elements.hpp"
 #include "scarp/io/gmsh/gmsh_reader.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 
 namespace python_points {
 namespace {
-
-/// Calls task(name, std::type_identity<Element>) for all elements until it returns true.
-template <class Task>
-bool any_element(Task const& task) {
-  return task("tri3", std::type_identity<scarp::Tri3>{}) || task("tri6", std::type_identity<scarp::Tri6>{}) ||
-         task("quad4", std::type_identity<scarp::Quad4>{}) || task("quad8", std::type_identity<scarp::Quad8>{}) ||
-         task("tet4", std::type_identity<scarp::Tet4>{}) || task("tet10", std::type_identity<scarp::Tet10>{}) ||
-         task("hex8", std::type_identity<scarp::Hex8>{}) || task("hex20", std::type_identity<scarp::Hex20>{});
-}
-
-/// Calls task(std::type_identity<Element>) with the element of a name. \throws InputError for another name
-template <class Task>
-void with_element(std::string const& wanted, Task const& task) {
-  std::vector<std::string> names;
-  bool const is_known = any_element([&](std::string_view name, auto type) {
-    names.emplace_back(name);
-    if (name != wanted) return false;
-    task(type);
-    return true;
-  });
-  if (!is_known)
-    scarp::reject("there is no element '{}' (there are {}): use one of these", wanted, scarp::listed(names));
-}
 
 template <class Element>
 MeshTables tables_of(std::string const& name, scarp::Mesh<Element> const& mesh) {
@@ -129,8 +98,7 @@ std::unique_ptr<scarp::Grid<Dim>> grid_of(MeshTables const& tables, std::string 
       if (kinematics == "updated_lagrangian") {
         grid = std::make_unique<scarp::DefaultGrid<Element>>(mesh_of<Element>(tables), thickness);
       } else if (kinematics == "small_strain") {
-        using SmallGrid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::DefaultIntegration<Element>>;
-        grid = std::make_unique<SmallGrid>(mesh_of<Element>(tables), thickness);
+        grid = std::make_unique<SmallGrid<Element>>(mesh_of<Element>(tables), thickness);
       } else {
         scarp::reject("the kinematics are '{}' (updated_lagrangian or small_strain is expected): use one of these",
                       kinematics);

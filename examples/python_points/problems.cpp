@@ -23,6 +23,7 @@
 #include "scarp/solver/analysis.hpp"
 #include "scarp/solver/collapse.hpp"
 #include "signals.hpp"
+#include "water.hpp"
 
 namespace python_points {
 namespace {
@@ -102,6 +103,24 @@ class OwnModel {
   scarp::Model<Dim> model_;
   std::atomic<int> users_ = 0;
 };
+
+/// Boundaries by name: a value, or a pair of a value and an amplitude.
+std::vector<WaterBoundary> water_boundaries(py::dict const& given) {
+  std::vector<WaterBoundary> boundaries;
+  for (auto const& [side, value] : given) {
+    bool const has_amplitude = py::isinstance<py::tuple>(value);
+    WaterBoundary one{.side = side.cast<std::string>(), .amplitude = scarp::TimeFunction::constant(1.0)};
+    if (has_amplitude) {
+      auto const [number, knots] = value.cast<std::pair<double, Knots>>();
+      one.value = number;
+      if (knots) one.amplitude = *course(knots);
+    } else {
+      one.value = value.cast<double>();
+    }
+    boundaries.push_back(std::move(one));
+  }
+  return boundaries;
+}
 
 template <int Dim>
 std::unique_ptr<OwnModel<Dim>> model_of(std::string const& element, py::object const& nodes, py::object const& elements,
@@ -273,6 +292,20 @@ void bind(py::module_& module, std::string const& suffix) {
            [=](Own& self, Sides const& sides, double pressure, Knots const& knots) {
              each(sides, [&](auto side) { self.now().surcharge({side}, pressure, course(knots)); });
            })
+      .def(
+          "water",
+          [](Own& self, double shear_modulus, double conductivity, double grain, double void_ratio, double bulk_modulus,
+             Knots const& clock, Sides const& drained, py::dict const& pressures, py::dict const& inflows) {
+            attach_water(self.now(), {.shear_modulus = shear_modulus,
+                                      .conductivity = conductivity,
+                                      .grain = grain,
+                                      .void_ratio = void_ratio,
+                                      .bulk_modulus = bulk_modulus,
+                                      .clock = course(clock).value_or(scarp::TimeFunction()),
+                                      .drained = drained,
+                                      .pressures = water_boundaries(pressures),
+                                      .inflows = water_boundaries(inflows)});
+          })
       .def("set_surface_level", [](Own& self, double height) { self.now().set_surface_level(height); })
       .def("geostatic",
            [](Own& self, double k0, std::string const& region) {
@@ -329,6 +362,15 @@ void bind(py::module_& module, std::string const& suffix) {
       .def("boundary_nodes",
            [](All const& self, std::string const& side) {
              return array_of<int>(self.seen().problem().grid().boundary_nodes(side), {}, {});
+           })
+      .def("nodal_fields",
+           [](All const& self) {
+             py::dict fields;
+             if (auto const* const attached = self.seen().problem().attachment()) {
+               for (auto& [name, values] : attached->nodal_fields())
+                 fields[py::str(name)] = array_of<double>(std::move(values), {}, {});
+             }
+             return fields;
            })
       .def("point_positions",
            [](All const& self) {

@@ -7,7 +7,7 @@ import os
 import pickle
 import time
 import warnings
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,10 @@ def _names(sides: Sides) -> List[str]:
 
 def _knots(amplitude: Optional[Amplitude]) -> Optional[List[Tuple[float, float]]]:
     return None if amplitude is None else [(float(load), float(value)) for load, value in amplitude]
+
+
+def _water_boundaries(given: Optional[Mapping[str, Any]]) -> Dict[str, Any]:
+    return {side: (float(value[0]), _knots(value[1])) if isinstance(value, tuple) else float(value) for side, value in (given or {}).items()}
 
 
 class Model:
@@ -103,6 +107,48 @@ class Model:
     def surcharge(self, sides: Sides, pressure: float, amplitude: Optional[Amplitude] = None) -> None:
         """Vertical pressure [Pa], downwards, on boundaries of the initial mesh."""
         self._do("surcharge", _names(sides), float(pressure), _knots(amplitude))
+
+    def water(self, shear_modulus: float, clock: Amplitude, conductivity: float = 0.0, grain: float = 0.0, void_ratio: float = 0.7,
+              bulk_modulus: float = 2.2e9, drained: Sides = (), pressures: Optional[Mapping[str, Any]] = None,
+              inflows: Optional[Mapping[str, Any]] = None) -> None:
+        """Pore water that fills the pores of all elements and flows through them. Stresses of materials are effective ones; weight is that of which
+        water carries nothing: below the water table give the buoyant one. Other boundaries than those that are named are impermeable.
+
+        Parameters
+        ----------
+        shear_modulus : float
+            Of the ground, in size [Pa]: it stabilises the pressures and weighs the unknowns.
+        clock : list of (float, float)
+            Time [s] over the load factor, from 0 s on: equal times are undrained loading, growing ones consolidation.
+        conductivity : float
+            Hydraulic, constant [m/s].
+        grain : float
+            Diameter [m] of Kozeny and Carman's permeability, by the void ratio as it evolves, instead.
+        void_ratio : float
+            At the start.
+        bulk_modulus : float
+            Of the water [Pa]; infinity for one whose volume does not change.
+        drained : str or sequence of str
+            Boundaries of zero excess pressure.
+        pressures, inflows : dict
+            By boundary: an excess pressure [Pa] or an inflow [m/s], or a tuple of it and its amplitude.
+
+        Examples
+        --------
+        >>> import scarp
+        >>> column = scarp.Model(scarp.box_mesh("quad8", [0.1, 1.0], [1, 10]), kinematics="small_strain")
+        >>> column.fix(["left", "right"], axis=0)
+        >>> column.fix("bottom")
+        >>> column.traction("top", [0.0, -10.0], amplitude=[(0, 0), (1, 1)])
+        >>> column.material("soil", scarp.linear_elastic(young=1e3, poisson=0.0))
+        >>> column.water(shear_modulus=500.0, conductivity=1e-5, clock=[(0, 0), (1, 0), (2, 100)], drained="top", bulk_modulus=float("inf"))
+        >>> analysis = scarp.Analysis(column, largest=1.0)
+        >>> undrained = analysis.to(1.0)
+        >>> bool(abs(analysis.pore_pressures[analysis.boundary_nodes("bottom")] / 10.0 - 1.0).max() < 1e-6)
+        True
+        """
+        self._do("water", float(shear_modulus), float(conductivity), float(grain), float(void_ratio), float(bulk_modulus), _knots(clock), _names(drained),
+                 _water_boundaries(pressures), _water_boundaries(inflows))
 
     def set_surface_level(self, height: float) -> None:
         """Height [m] from which depths are measured, by default that of the highest node."""
@@ -357,6 +403,14 @@ class Analysis:
         return self._analysis.positions()
 
     @property
+    def pore_pressures(self) -> Floats:
+        """Excess pore pressures [Pa] at the nodes, positive in compression, shape (nodes,); ValueError without water."""
+        fields = self._analysis.nodal_fields()
+        if "excess_pore_pressure" not in fields:
+            raise ValueError("the model has no water: give it, model.water(...)")
+        return fields["excess_pore_pressure"]
+
+    @property
     def displacements(self) -> Floats:
         """Displacements [m] of the nodes, shape (nodes, dim)."""
         moved: Floats = self.positions - np.asarray(self.mesh.nodes)
@@ -424,7 +478,7 @@ class Analysis:
         """The deformed mesh with displacement at the nodes and stress at the elements, as meshio has it."""
         displacement = np.zeros((len(self.positions), 3))
         displacement[:, :self.model.dim] = self.displacements
-        return self.mesh.to_meshio(self.positions, {"displacement": displacement},
+        return self.mesh.to_meshio(self.positions, {"displacement": displacement, **self._analysis.nodal_fields()},
                                    {"stress": self.at_elements(self.stresses), "shear_strain": self.at_elements(self.shear_strains())})
 
     def write(self, file: Path) -> None:
