@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "../shared/data_file.hpp"
 #include "../shared/study/soils.hpp"
 #include "../shared/study/study_sand.hpp"
 #include "scarp/core/process.hpp"
@@ -91,7 +92,9 @@ CostModel read_cost_model(std::filesystem::path const& file) {
   return model;
 }
 
-std::filesystem::path default_cost_model() { return FAULT_RUPTURE_COSTS; }
+std::filesystem::path default_cost_model() {
+  return examples::data_file("fault_rupture/costs.json", FAULT_RUPTURE_COSTS);
+}
 
 Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control, CostModel const& model,
              double speed) {

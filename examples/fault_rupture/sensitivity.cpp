@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "../shared/data_file.hpp"
 #include "../shared/study/chosen_ground.hpp"
 #include "../shared/write_json.hpp"
 #include "scarp/budget/budget_part.hpp"
@@ -129,7 +130,9 @@ void SensitivityFile::add(std::string const& part, SensitivityResult result) {
   results_[part] = std::move(result);
 }
 
-std::filesystem::path default_sensitivity_file() { return FAULT_RUPTURE_SENSITIVITY; }
+std::filesystem::path default_sensitivity_file() {
+  return examples::data_file("fault_rupture/sensitivity.json", FAULT_RUPTURE_SENSITIVITY);
+}
 
 scarp::BudgetParts sensitivity_parts(SensitivityResults const& results, double surface_x50, double depth,
                                      scarp::ErrorBounds const& bounds) {
