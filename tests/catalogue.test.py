@@ -13,7 +13,7 @@ HEADINGS = [{"What"}, {"Header"}, {"Template"}, {"Formula", "Size"}, {"Parameter
 PAGES = {"contact": "contact_laws", "shape": "shapes", "element": "elements", "solver": "solvers", "constitutive": "providers", "rve": "providers"}
 # Headers that define concepts or serve others.
 HELPERS = {
-    "constitutive/constitutive_provider", "constitutive/unwrap", "rve/stored_packing", "contact/contact_law", "contact/coulomb", "contact/law_checks",
+    "constitutive/constitutive_provider", "constitutive/hydraulic", "constitutive/unwrap", "rve/stored_packing", "contact/contact_law", "contact/coulomb", "contact/law_checks",
     "shape/converged_contact", "shape/minimum_translation", "shape/particle_shape", "shape/round_grain", "shape/superellipse_contact",
     "shape/support_contact", "shape/support_integrals", "element/map", "element/mid_sides", "element/quadrature_rules", "element/reference_element",
     "solver/equilibrium_problem", "solver/problem", "solver/linear_system", "solver/linearised_step", "solver/make_problem", "solver/step_report", "solver/work_balance"}

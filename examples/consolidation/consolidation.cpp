@@ -58,7 +58,7 @@ bool strip(consolidation::StripForms const& forms, consolidation::StripMesh cons
 int main(int argc, char** argv) {
   consolidation::Column of_column;
   consolidation::StripMesh of_strip;
-  double column_gate = 0.025;
+  double column_gate = 6e-3;
   double strip_gate = 0.02;
   bool column_only = false;
   CLI::App app{"Consolidation of a column and below a strip load against closed forms"};

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "../shared/convergence_table.hpp"
 #include "../shared/plane_strain.hpp"
 #include "clock.hpp"
 #include "scarp/bvp/default_integration.hpp"

@@ -114,9 +114,8 @@ class PoreWater {
   }
 
   // What an attachment needs.
-  int extra_dofs() const {
-    return detail::count(boundaries_.unknowns());
-  }                                        ///< Pressures over scale() [m]; their balance is volume times scale() [N].
+  /// Pressures over scale() [m], without the given ones; their balance is that of volumes times scale() [N].
+  int extra_dofs() const { return detail::count(boundaries_.unknowns()); }
   double scale() const { return scale_; }  ///< [Pa/m]
   double thickness() const { return field_.grid().thickness(); }
   Verdict add_forces(std::vector<Vector<dim>> const&, Values const& increment, Values& forces) {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "scarp/bvp/attachment.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"

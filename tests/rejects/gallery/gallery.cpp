@@ -345,6 +345,14 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_36
 
+// first: an attachment that is a field needs at(), next_knot()
+namespace case_field {
+struct Wrong : FollowingPressure<> {
+  static constexpr bool is_field = true;
+};
+auto const size = sizeof(detail::AttachedPartOf<2, Wrong>);
+}  // namespace case_field
+
 // first: a CheckpointedRun watches all other observers
 namespace case_observers {
 struct Notes {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"

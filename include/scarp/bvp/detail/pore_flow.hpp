@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/bvp/grid.hpp"
 #include "scarp/constitutive/hydraulic.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
