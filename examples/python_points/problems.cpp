@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -176,12 +177,21 @@ class OwnAnalysis {
   std::thread::id owner_;       ///< thread that works
 };
 
+using Clock = std::chrono::steady_clock;
+
+Clock::time_point end_of(std::optional<double> const& seconds) {
+  if (!seconds) return Clock::time_point::max();
+  scarp::require_between("time limit of a run", *seconds, 0.0, 1e9);
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*seconds));
+}
+
 /// Passes attempts on to Python and to a series of files.
 template <int Dim>
 struct Watcher {
   py::object const& observer;
   scarp::FieldSeries* series;
   Signals& signals;
+  Clock::time_point end;  ///< of the time limit
   bool stops = false;
 
   void attempted(scarp::Problem<Dim> const& problem, scarp::StepReport const& report) {
@@ -192,7 +202,7 @@ struct Watcher {
   }
   bool wants_stop() const {
     signals.look();
-    return stops;
+    return stops || Clock::now() >= end;
   }
 };
 
@@ -207,11 +217,12 @@ py::dict report_of(scarp::RunReport const& run, std::string why) {
 }
 
 template <int Dim>
-py::dict advance(OwnAnalysis<Dim>& own, double load, py::object const& observer, scarp::FieldSeries* series) {
+py::dict advance(OwnAnalysis<Dim>& own, double load, py::object const& observer, scarp::FieldSeries* series,
+                 std::optional<double> seconds) {
   auto const [run, why] = own.at_work([&](scarp::Analysis<Dim>& analysis) {
     py::gil_scoped_release const release;
     Signals signals;
-    Watcher<Dim> watcher{observer, series, signals};
+    Watcher<Dim> watcher{observer, series, signals, end_of(seconds)};
     auto const report = analysis.to(load, watcher);
     if (series) series->ended(analysis.problem(), report.load);
     return std::pair(report, analysis.why(report));
@@ -226,11 +237,11 @@ py::dict collapse_of(scarp::Collapse const& end) {
 
 template <int Dim>
 py::dict find_collapse(OwnAnalysis<Dim>& own, double load, double failed, double failing, py::object const& observer,
-                       scarp::FieldSeries* series) {
+                       scarp::FieldSeries* series, std::optional<double> seconds) {
   return collapse_of(own.at_work([&](scarp::Analysis<Dim>& analysis) {
     py::gil_scoped_release const release;
     Signals signals;
-    Watcher<Dim> watcher{observer, series, signals};
+    Watcher<Dim> watcher{observer, series, signals, end_of(seconds)};
     auto end = scarp::find_collapse(analysis, load, {.failed = failed, .failing = failing}, watcher);
     if (series) series->ended(analysis.problem(), end.load);
     return end;
@@ -329,7 +340,7 @@ void bind(py::module_& module, std::string const& suffix) {
              return sum;
            })
       .def("material", [](Own& self, std::string const& region, Material<Dim> const& material, double length) {
-        if (length > 0.0) {
+        if (scarp::require_not_negative("nonlocal length of a material", length) > 0.0) {
           self.now().material(region, scarp::Nonlocal{material.provider, length});
         } else {
           self.now().material(region, material.provider);

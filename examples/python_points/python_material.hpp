@@ -53,7 +53,7 @@ struct PythonMaterial {
     bool const is_of_many = py::hasattr(object, "respond_all");
     if (is_of_many == py::hasattr(object, "respond") || !py::hasattr(object, "start"))
       scarp::reject(
-          "a material of the type {} has not the functions that are expected: start, and either respond or respond_all",
+          "a material of the type {} has not the functions that are expected (start, and one of respond and respond_all): correct it",
           std::string(py::str(py::type::of(object))));
     auto* const kept = new py::object(object);
     auto const drop = [](py::object const* held) {

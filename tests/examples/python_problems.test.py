@@ -164,6 +164,25 @@ with tempfile.TemporaryDirectory() as scratch:
     refused(ValueError, "does not load", lambda: scarp.umat(file=source))
     refused(ValueError, "a UMAT has no file", lambda: scarp.umat())
 
+# Terzaghi's column of water that keeps its volume, drained at its top: p/p0 at the base 0.9493 at T 0.1, 0.3708 at T 0.5 (Terzaghi 1943).
+column = scarp.Model(scarp.box_mesh("quad8", [0.1, 1.0], [1, 10]), kinematics="small_strain")
+column.fix(["left", "right"], axis=0)
+column.fix("bottom")
+column.traction("top", [0.0, -10.0], amplitude=[(0, 0), (1, 1)])
+column.material("soil", scarp.linear_elastic(young=1e3, poisson=0.0))
+seconds_per_factor = 9.81e3 / (1e-5 * 1e3)  # h^2 / c_v, c_v = k E / gamma_w
+column.water(shear_modulus=500.0, conductivity=1e-5, drained="top", bulk_modulus=float("inf"), clock=[(0, 0), (1, 0), (2, 0.1 * seconds_per_factor), (3, 0.5 * seconds_per_factor)])
+analysis = scarp.Analysis(column, first=1.0, largest=0.02)
+base = analysis.boundary_nodes("bottom")
+for load, exact in ((1.0, 1.0), (2.0, 0.9493), (3.0, 0.3708)):
+    analysis.to(load)
+    expect(np.abs(analysis.pore_pressures[base] / 10.0 - exact).max() < 0.01, f"pressures {analysis.pore_pressures[base]} Pa at the load factor {load}, exact {exact}")
+saved = pickle.loads(pickle.dumps(analysis))
+expect(np.array_equal(saved.pore_pressures, analysis.pore_pressures), "saved pressures differ")
+refused(ValueError, "no water", lambda: scarp.Analysis(footing(lambda rest: One(2, **rest))).pore_pressures)
+refused(ValueError, "clock of the pore water", lambda: column.water(shear_modulus=1.0, clock=[(0, 1), (1, 0)]))
+refused(ValueError, "no boundary 'nowhere'", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=[(0, 0)], drained="nowhere"))
+
 # Stages, saved in between: a copy goes on with the same bits, also in another process, with packings and means.
 made = scarp.discs(grains=40, stiffness_floor=1e-4)
 
@@ -202,7 +221,10 @@ expect(abs(analysis.displacement("top", 0) / 0.0075 - 1.0) < 1e-12, f"the top is
 # What a model gets after an analysis was made of it belongs to neither the analysis nor its copies.
 model = footing(lambda rest: One(2, **rest))
 early = scarp.Analysis(model)
-model.traction("top", [1e4, 0.0])
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    model.traction("top", [1e4, 0.0])
+expect(any("does not see the change" in str(one.message) for one in said), "a load after the analysis is passed over in silence")
 expect(np.array_equal(pickle.loads(pickle.dumps(early)).stresses, early.stresses), "a later load changes a pickle")
 early.to(1.0)
 late = scarp.Analysis(model)
@@ -227,6 +249,11 @@ with tempfile.TemporaryDirectory() as scratch:
         expect(np.allclose(written.points[:, :2], analysis.positions) and "stress" in written.cell_data, f"{written}")
         matplotlib.use("Agg")
         analysis.plot().figure.savefig(folder / "ground.png")
+        for values in (analysis.displacements[:, 1], analysis.stresses[:, 0], np.arange(32.0)):
+            analysis.plot(values, "other")
+        matplotlib.pyplot.close("all")
+        for values in ([1, 2, 3], analysis.stresses):
+            refused(ValueError, "a number for each of 32 elements", lambda: analysis.plot(values))
         expect((folder / "ground.png").stat().st_size > 5000, "no figure")
     try:
         import pandas
@@ -291,7 +318,49 @@ def slope(factor):
 found = scarp.reduce_strength(slope, most=2.0, tolerance=0.02)
 expect(1.36 < found.fails and found.stands < 1.43 and found.fails <= 1.02 * found.stands and "fails beyond" in found.why, f"{found}")
 expect(scarp.reduce_strength(slope, least=1.8, most=2.0).stands == 0.0 and scarp.reduce_strength(slope, most=1.1).fails == 0.0, "bounds of a factor")
+expect("larger" in scarp.reduce_strength(slope, most=1.1).why, "no word of a largest factor that stands")
 refused(ValueError, "factors from 2", lambda: scarp.reduce_strength(slope, least=2.0, most=1.0))
+
+# A strip on ground under its weight: how it fails does not depend on whether its balance was a call of its own. A smooth strip on a layer, c N_c +
+# B gamma N_gamma / 2 with N_c 30.1 and N_gamma up to 15, carries 260 kPa at most.
+
+
+def strip():
+    mesh = scarp.box_mesh("quad8", [8.0, 4.0], [16, 8])
+    mesh.boundaries["strip"] = [facet for facet in mesh.boundaries["top"] if mesh.nodes[facet, 0].max() < 1.01]
+    mesh = scarp.Mesh(mesh.element, mesh.nodes, mesh.elements, boundaries=mesh.boundaries)
+    model = scarp.Model(mesh, kinematics="small_strain")
+    model.fix(["left", "right"], axis=0)
+    model.fix("bottom")
+    model.gravity(18e3)
+    model.material("soil", scarp.mohr_coulomb(young=50e6, poisson=0.3, cohesion=5e3, friction=np.radians(30), dilation=np.radians(30), **model.geostatic(0.5)))
+    model.traction("strip", [0.0, -1e6], amplitude=[(1, 0), (2, 1)])
+    return scarp.Analysis(model, tolerance=1e-4, max_iterations=40, tangent_floor=1e-4, largest=0.05, max_displacement_gradient=0.1)
+
+
+at_once, staged = strip(), strip()
+curve = scarp.History("strip", 1)
+staged.to(1.0)
+ends = [at_once.find_collapse(2.0, observers=curve), staged.find_collapse(2.0)]
+expect(all(end.failed and 1.15 < end.load < 1.30 for end in ends) and abs(ends[0].load - ends[1].load) < 0.02, f"{ends}")
+expect(curve.loads == sorted(curve.loads) and curve.displacements[-1] < 4.0 * curve.displacements[len(curve.loads) // 2] < 0.0, f"{curve.displacements}")
+
+# Time limits end a run, what is committed remains.
+analysis = scarp.Analysis(sheared(scarp.discs(grains=100), 0.0), tolerance=1e-2)
+run = analysis.to(1.0, time_limit=0.0)
+expect(run.reason == "interrupted" and run.load == analysis.load == 0.0, f"{run}")
+refused(ValueError, "time limit of a run", lambda: analysis.to(1.0, time_limit=-1.0))
+for take in (lambda: scarp.ground_of_discs(grains=50), lambda: scarp.ground_of_ellipses(grains=50, depths=[])):
+    refused(ValueError, "no depths of the ground's points", take)
+refused(ValueError, "nonlocal length", lambda: scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])).material("soil", made, length=-3.0))
+
+
+class Forgets(One):
+    def respond(self, strain, stress, variables):
+        return self.moduli @ strain, self.moduli, variables
+
+
+refused(ValueError, "for a strain of zero", lambda: footing(lambda rest: Forgets(2, **rest)))
 
 # A material in Python that fails.
 
@@ -377,8 +446,8 @@ calls = {
     "geostatic": (lambda *given: footing(lambda rest: One(2)).geostatic(*given), [0.5, "soil"]),
     "Analysis": (scarp.Analysis, [footing(lambda rest: One(2, **rest), good_mesh), 1e-3, 5, 0.1, 1e-3, 0.2, 0.1, 0.0, 1]),
     "find_collapse": (lambda *given: scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh), largest=1e300).find_collapse(*given),
-                      [1e-3, [], None, False, 100.0, 10.0]),
-    "to": (lambda *given: scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh), largest=1e300).to(*given), [1e-3, [], None, False]),
+                      [1e-3, [], None, False, 1.0, 100.0, 10.0]),
+    "to": (lambda *given: scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh), largest=1e300).to(*given), [1e-3, [], None, False, 1.0]),
     "displacement": (scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh)).displacement, ["top", 1]),
     "quantities": (scarp.Analysis(footing(lambda rest: One(2, **rest), good_mesh)).quantities, [0]),
     "load_analysis": (scarp.load_analysis, [tutorials / "excavation.msh"]),

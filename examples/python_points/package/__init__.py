@@ -15,7 +15,7 @@ except ImportError as missing:
                       "for, or build it with -D Python_EXECUTABLE=" + sys.executable) from missing
 from ._points import build, load, reasons, statuses
 from .fault import FaultRun, fault_estimate, fault_rupture
-from .figures import Frames, plot_packing
+from .figures import Frames, History, plot_packing
 from .lab import LabRun, calibrate, rve_lab
 from .materials import (MaterialPoints, discs, ellipses, ground_of_discs, ground_of_ellipses, linear_elastic, loads, mohr_coulomb, packing, spheres,
                         umat)
@@ -25,7 +25,7 @@ from .problem import Analysis, Collapse, FieldSeries, Model, NotConverged, Pytho
 from .program_options import options
 from .study import study
 
-__all__ = ["Analysis", "Collapse", "FaultRun", "FieldSeries", "Frames", "LabRun", "MaterialPoints", "Mesh", "MicroSimulation", "Model", "NotConverged",
+__all__ = ["Analysis", "Collapse", "FaultRun", "FieldSeries", "Frames", "History", "LabRun", "MaterialPoints", "Mesh", "MicroSimulation", "Model", "NotConverged",
            "PythonMaterial", "Run", "SafetyFactor", "box_mesh", "build", "calibrate", "discs", "ellipses", "fault_estimate", "fault_rupture",
            "ground_of_discs", "ground_of_ellipses", "linear_elastic", "load", "load_analysis", "loads", "mohr_coulomb", "options", "packing",
            "plot_packing", "read_gmsh", "reasons", "reduce_strength", "rve_lab", "spheres", "statuses", "study", "umat"]

@@ -59,6 +59,46 @@ def plot_packing(picture: Optional[Mapping[str, npt.NDArray[np.float64]]], axes:
     return axes
 
 
+class History:
+    """An observer that records displacement and reaction of a boundary at every accepted load step.
+
+    Parameters
+    ----------
+    side : str
+        Name of the boundary.
+    axis : int
+
+    Attributes
+    ----------
+    loads, displacements, reactions : list of float
+        Load factors, displacements [m] of the node that has moved farthest, and forces [N] of the boundary's support along the axis.
+
+    Examples
+    --------
+    >>> import scarp
+    >>> model = scarp.Model(scarp.box_mesh("quad4", [2.0, 1.0], [4, 2]))
+    >>> model.fix("bottom")
+    >>> model.move("top", 1, -0.01)
+    >>> model.material("soil", scarp.linear_elastic(young=20e6, poisson=0.3))
+    >>> curve = History("top", 1)
+    >>> run = scarp.Analysis(model).to(1.0, observers=curve)
+    >>> round(curve.displacements[-1], 6), curve.reactions[-1] < 0.0
+    (-0.01, True)
+    """
+
+    def __init__(self, side: str, axis: int) -> None:
+        self._side, self._axis = side, axis
+        self.loads: List[float] = []
+        self.displacements: List[float] = []
+        self.reactions: List[float] = []
+
+    def __call__(self, analysis: Analysis, step: _points.Step) -> None:
+        if step.accepted:
+            self.loads.append(step.load)
+            self.displacements.append(analysis.displacement(self._side, self._axis))
+            self.reactions.append(float(analysis.reaction(self._side)[self._axis]))
+
+
 class Frames:
     """An observer that keeps what is drawn of every accepted load step, for an animation.
 
@@ -95,7 +135,7 @@ class Frames:
             return
         shown = np.asarray(self._values(analysis), dtype=float)
         self._analysis = analysis
-        self.steps.append((step.load, analysis.positions, analysis.at_elements(shown) if len(shown) == len(analysis.volumes) else shown))
+        self.steps.append((step.load, analysis.positions, analysis._of_elements(shown)))
 
     def animation(self, interval: float = 100.0) -> Any:
         """The steps one after the other, each for `interval` [ms]; in a notebook HTML(frames.animation().to_jshtml()).

@@ -72,10 +72,16 @@ class Model:
         self.mesh = mesh
         self._made = (mesh, kinematics, thickness)
         self._calls: List[Tuple[str, Tuple[Any, ...]]] = []
+        self._has_analysis = False
         make = _points.Model if mesh.dim == 2 else _points.ModelInSpace
         self._model = make(mesh.element, mesh.nodes, mesh.elements, mesh.element_region, mesh.regions, mesh.boundaries, kinematics, float(thickness))
 
+    def __repr__(self) -> str:
+        return f"Model({self.mesh!r}, {self._made[1]})"
+
     def _do(self, name: str, *values: Any) -> None:
+        if self._has_analysis:
+            warnings.warn(f"{name} is called after an analysis was made of the model (it does not see the change): make another analysis", stacklevel=3)
         getattr(self._model, name)(*values)
         self._calls.append((name, values))
 
@@ -193,10 +199,28 @@ class Model:
         if not isinstance(material, known):
             exact = getattr(material, "exact_tangent", False) if exact_tangent is None else exact_tangent
             own = (_points.python_material if self.dim == 2 else _points.python_material_in_space)(material, bool(exact))
+            _require_stress_kept(material, self.positions(region)[0], region)
         elif not isinstance(material, known[self.dim - 2]):
             raise ValueError(f"the material of '{region}' has {material.dim} dimensions (the mesh has {self.dim}): make it with dim={self.dim}")
         self._model.material(region, own, float(length))
         self._calls.append(("material", (region, material, length, exact_tangent)))
+
+
+def _require_stress_kept(material: Any, position: Floats, region: str) -> None:
+    """A strain of zero is to change no stress. ValueError"""
+    stress, tangent, *variables = material.start(position, 1.0)
+    stress, kept = np.asarray(stress, dtype=float), np.asarray(variables[0] if variables else [], dtype=float)
+    if hasattr(material, "respond"):
+        answer = material.respond(np.zeros_like(stress), stress, kept)
+    else:
+        answer = material.respond_all(np.zeros((1, len(stress))), stress[None], kept[None])
+    if not isinstance(answer, tuple):
+        return  # which the first response rejects in words
+    found = np.ravel(np.asarray(answer[0], dtype=float))
+    size = np.abs(stress).max() + 1e-9 * np.abs(np.asarray(tangent, dtype=float)).max()
+    if found.shape == stress.shape and np.isfinite(found).all() and np.abs(found - stress).max() > 1e-6 * size:
+        raise ValueError(f"the material of '{region}' turns the stress {stress} Pa into {found} Pa for a strain of zero (it is expected to keep it): add the "
+                         "change of stress to the one that is given")
 
 
 def _model(made: Tuple[Any, ...], calls: Sequence[Tuple[str, Tuple[Any, ...]]]) -> Model:
@@ -252,7 +276,8 @@ class NotConverged(RuntimeError):
     """A run that did not reach its load factor; `run` says how far it came and why."""
 
     def __init__(self, run: Run) -> None:
-        super().__init__(f"{run.why}: take smaller steps, a larger tolerance, or less load; what was reached is committed")
+        advice = "hold it, or correct its material's stiffness" if "nothing holds" in run.why else "take smaller steps, a larger tolerance, or less load"
+        super().__init__(f"{run.why}: {advice}; what was reached is committed")
         self.run = run
 
     def __reduce__(self) -> Any:
@@ -325,7 +350,11 @@ class Analysis:
         self._settings = (None if tolerance is None else float(tolerance), max_iterations, float(first), float(smallest), float(largest),
                           float(max_displacement_gradient), float(tangent_floor), threads)
         self._copy = pickle.dumps(model)  # what later calls change in the model is not of this analysis
+        model._has_analysis = True
         self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings)
+
+    def __repr__(self) -> str:
+        return f"Analysis({self.model!r}, load factor {self.load:.6g})"
 
     @property
     def mesh(self) -> Mesh:
@@ -337,7 +366,8 @@ class Analysis:
         """Load factor of the committed state."""
         return float(self._analysis.load)
 
-    def to(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False) -> Run:
+    def to(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False,
+           time_limit: Optional[float] = None) -> Run:
         """Raises the load factor.
 
         Parameters
@@ -351,6 +381,8 @@ class Analysis:
             Files for ParaView.
         progress : bool
             A bar of tqdm, where it is installed.
+        time_limit : float
+            Of this call [s]; the iteration that is at work is ended, so that what is committed remains.
 
         Returns
         -------
@@ -364,23 +396,24 @@ class Analysis:
             Within a second; the committed state remains.
         """
         with _Watch(self, observers, load, progress) as watch:
-            run = Run(**self._analysis.to(float(load), watch.observer, fields))
+            run = Run(**self._analysis.to(float(load), watch.observer, fields, time_limit))
         watch.warn(run)
         if run.status not in ("ok", "fluid") and run.reason != "interrupted":
             raise NotConverged(run)
         return run
 
     def find_collapse(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False,
-                      failed: float = 100.0, failing: float = 10.0) -> Collapse:
-        """Raises the load factor until the ground fails: until displacement gradients per load are `failed` times those of this call's first
-        step that moves, or `failing` times where no equilibrium follows. Observers, fields and progress as for `to`.
+                      time_limit: Optional[float] = None, failed: float = 100.0, failing: float = 10.0) -> Collapse:
+        """Raises the load factor until the ground fails: until displacement gradients per load are `failed` times those of the first step that moves,
+        of this call and after each knot of the amplitudes, or `failing` times where no equilibrium follows. Ground with friction fails slowly:
+        compare the load with that of `failed=1000`. Other parameters as for `to`; `History` records the curve.
 
         Returns
         -------
         Collapse
         """
         with _Watch(self, observers, load, progress) as watch:
-            end = self._analysis.find_collapse(float(load), float(failed), float(failing), watch.observer, fields)
+            end = self._analysis.find_collapse(float(load), float(failed), float(failing), watch.observer, fields, time_limit)
         run = Run(**end.pop("run"))
         watch.warn(run)
         return Collapse(run=run, **end)
@@ -485,8 +518,20 @@ class Analysis:
         """Writes the deformed mesh and its fields by meshio, in the format of the file's name, such as .vtu."""
         self.to_meshio().write(os.fspath(file))
 
-    def plot(self, values: Optional[npt.ArrayLike] = None, label: str = "shear strain", axes: Any = None) -> Any:
-        """Draws a plane problem: the deformed mesh, coloured by numbers of the elements or points, by default their shear strain.
+    def _of_elements(self, values: npt.ArrayLike) -> Floats:
+        """Numbers of the elements, from those of elements, points or nodes."""
+        shown = np.asarray(values, dtype=float)
+        elements, points, nodes = len(self.mesh.elements), len(self.volumes), len(self.mesh.nodes)
+        if shown.ndim != 1 or len(shown) not in (elements, points, nodes):
+            raise ValueError(f"values have the shape {shown.shape} (a number for each of {elements} elements, {points} points or {nodes} nodes is expected): "
+                             "take one component")
+        if len(shown) == elements:
+            return shown
+        means: Floats = self.at_elements(shown) if len(shown) == points else shown[self.mesh.corners].mean(axis=1)
+        return means
+
+    def plot(self, values: Optional[npt.ArrayLike] = None, label: str = "", axes: Any = None) -> Any:
+        """Draws a plane problem: the deformed mesh, coloured by numbers of the elements, points or nodes, by default shear strain.
 
         Returns
         -------
@@ -497,15 +542,13 @@ class Analysis:
         import matplotlib.pyplot as plt
         from matplotlib.collections import PolyCollection
 
-        shown = np.asarray(self.shear_strains() if values is None else values, dtype=float)
-        if len(shown) == len(self.volumes):
-            shown = self.at_elements(shown)
+        shown = self._of_elements(self.shear_strains() if values is None else values)
         axes = plt.subplots(figsize=(8.0, 4.0))[1] if axes is None else axes
         filled = PolyCollection(self.positions[self.mesh.corners], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
         axes.add_collection(filled)
         axes.autoscale_view()
         axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
-        axes.figure.colorbar(filled, ax=axes, label=label, shrink=0.6)
+        axes.figure.colorbar(filled, ax=axes, label="shear strain" if values is None else label, shrink=0.6)
         return axes
 
     def save(self, file: Path) -> None:
@@ -597,7 +640,8 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
     Parameters
     ----------
     make_model : callable
-        make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor.
+        make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. Leave initial stresses out: reduced
+        strengths may not bear them. Ground without cohesion gets a little, such as 100 Pa.
     least, most : float
         Factors that are tried first.
     tolerance : float
@@ -631,11 +675,13 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
                 break
         if not factors and stands > 0.0 and fails > stands * (1.0 + tolerance):
             factors = [(stands + fails) / 2.0]
+    if not why:
+        why = f"it stands at the largest factor, {most}: give a larger one, if make_model uses its factor"
     return SafetyFactor(stands, fails, why)
 
 
 class FieldSeries:
-    """Fields for ParaView: folder/fields.pvd, written at load factor 0 and then `count` times up to `to`.
+    """Fields for ParaView: folder/fields.pvd, written after the first load step and then `count` times up to `to`.
 
     Parameters
     ----------

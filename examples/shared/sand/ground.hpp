@@ -22,6 +22,8 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
   using Shape = typename PackingType::Shape;
   constexpr double off = 0.01;
   constexpr double least_friction = 0.005;  // without any, few grains at a low pressure may not come to rest
+  if (depths.empty())
+    scarp::reject("no depths of the ground's points are given (each point gets a packing of its own): give them");
   if (sand.vertical_pressure > 0.0)
     scarp::reject("the sand's vertical-pressure is {} Pa (ground has that of its depth): leave it out",
                   sand.vertical_pressure);

@@ -42,7 +42,8 @@ struct StrengthReduction {
   }
 };
 
-/// Observer of the largest displacement gradient of a step per load, and of how it grows. Stops a run when the ground has failed.
+/// Observer of the largest displacement gradient of a step per load, and of how it grows since the last knot of loads and motions.
+/// Stops a run when the ground has failed.
 class CollapseWatch {
  public:
   /// failed: ratio at which it stops a run
@@ -52,10 +53,15 @@ class CollapseWatch {
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
     if (!(report.load_increment > 0.0) || report.history.empty()) return;
+    constexpr double round_off = 1e-9;  // of a load, and of a gradient: ground at rest does not move
+    double const begin = report.load - report.load_increment;
+    if (begin >= next_knot_ - round_off) first_ = 0.0;  // other loads grow: another stage
     double const compliance = problem.max_displacement_gradient() / report.load_increment;
     bool const accepted = report.verdict.acceptable();
-    constexpr double round_off = 1e-9;  // of a gradient: ground at rest does not move
-    if (accepted && first_ == 0.0 && problem.max_displacement_gradient() > round_off) first_ = compliance;
+    if (first_ == 0.0) {
+      next_knot_ = problem.next_knot(begin + round_off);
+      if (accepted && problem.max_displacement_gradient() > round_off) first_ = compliance;
+    }
     double const ratio = first_ > 0.0 ? compliance / first_ : 1.0;
     if (accepted) {
       ratio_ = beyond_ = ratio;
@@ -69,7 +75,8 @@ class CollapseWatch {
 
  private:
   double failed_;
-  double first_ = 0.0;
+  double first_ = 0.0;      ///< gradient per load of the first step of a stage that moved; 0 before it
+  double next_knot_ = 0.0;  ///< load factor at which the stage ends
   double ratio_ = 1.0;
   double beyond_ = 1.0;
 };
@@ -85,8 +92,9 @@ struct [[nodiscard]] Collapse {
   bool stands() const { return run.verdict.acceptable(); }  ///< Whether the load was carried.
 };
 
-/// Raises the load factor of an analysis to `to`, or until the ground fails. The first step of this call that moves is what later
-/// ones are compared with: begin where the ground is still stiff. An observer watches too; what it ends has not failed.
+/// Raises the load factor of an analysis to `to`, or until the ground fails. The first step that moves, of this call and after each knot
+/// of loads and motions, is what later ones are compared with: begin where the ground is still stiff. Ground with friction fails slowly:
+/// compare the load with that of a larger `failed`. An observer watches too; what it ends has not failed.
 /// \throws InputError for settings outside of their range
 template <int Dim, class Observer>
 Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings, Observer& observer) {
