@@ -124,7 +124,7 @@ TEST_CASE("a column consolidates as Terzaghi's, at first order in the time step,
 }
 
 TEST_CASE("steps far shorter than an element can show neither overshoot the load nor undershoot zero") {
-  // Without smoothing the excess pressure next to the drain is 1.3 to 1.5 of the load, in Tri3 without projection 2.8.
+  // Without smoothing the excess pressure next to the drain overshoots the load (Vermeer and Verruijt 1981).
   for (double const first : {1e-8, 1e-5}) {
     Column const column{.first = first, .steps = 2};
     auto const check = [](ColumnRun const& run) {
