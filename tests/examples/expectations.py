@@ -25,6 +25,15 @@ def leave_out(reason):
     left_out.append(reason)
 
 
+def rejected(kind, said, call):
+    """Expects an exception of this kind whose message has these words."""
+    try:
+        call()
+        expect(False, f"no exception that says '{said}'")
+    except kind as trouble:
+        expect(said in str(trouble), f"'{trouble}' does not say '{said}'")
+
+
 def finish():
     """Prints what was not met and ends the script, with exit code 1 if there was any."""
     print("\n".join(troubles))

@@ -14,7 +14,7 @@ import time
 import warnings
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import example, expect, finish, leave_out
+from expectations import example, expect, finish, leave_out, rejected
 
 FAULT, LAB = example("fault_rupture"), example("rve_lab")
 module = FAULT.parents[1] / "python"
@@ -33,14 +33,6 @@ WORDS = ["--quick", "--soil", "mohr_coulomb", "--frames", "2"]
 # What a run takes, and where it lies.
 OF_THE_MOMENT = ("cpu_seconds", "wall_seconds", "peak_memory_bytes", "run", "share_of_time_in_points", "share_of_time_outside_points", "share_of_time_in_rves",
                  "share_of_time_outside_rves", "seconds")
-
-
-def refused(kind, said, call):
-    try:
-        call()
-        expect(False, f"no refusal that says '{said}'")
-    except kind as trouble:
-        expect(said in str(trouble), f"'{trouble}' does not say '{said}'")
 
 
 def by_command(program, folder, *words):
@@ -81,36 +73,36 @@ def check_options(folder):
 
 def check_refusals(folder):
     run = functools.partial(scarp.fault_rupture, folder / "refused")
-    refused(ValueError, "no option lenght (near are length", lambda: run(lenght=2.0))
-    refused(ValueError, "there are folder, overwrite, progress, and of the program aspect,", lambda: run(output="x"))
-    refused(ValueError, "--dip: '95.0' is out of range (it must be a number from 1 and at most 90)", lambda: run(dip=95.0))
-    refused(ValueError, "'nan' is out of range", lambda: run(dip=float("nan")))
-    refused(TypeError, "quick is 1 (expected is True or False)", lambda: run(quick=1))
-    refused(TypeError, "dip is True (expected is a value like 60)", lambda: run(dip=True))
-    refused(TypeError, "progress is 3 (expected is a function of a line", lambda: run(quick=True, progress=3))
-    refused(ValueError, "no option folder (there are aspect", lambda: scarp.fault_estimate(folder="x"))
+    rejected(ValueError, "no option lenght (near are length", lambda: run(lenght=2.0))
+    rejected(ValueError, "there are folder, overwrite, progress, and of the program aspect,", lambda: run(output="x"))
+    rejected(ValueError, "--dip: '95.0' is out of range (it must be a number from 1 and at most 90)", lambda: run(dip=95.0))
+    rejected(ValueError, "'nan' is out of range", lambda: run(dip=float("nan")))
+    rejected(TypeError, "quick is 1 (expected is True or False)", lambda: run(quick=1))
+    rejected(TypeError, "dip is True (expected is a value like 60)", lambda: run(dip=True))
+    rejected(TypeError, "progress is 3 (expected is a function of a line", lambda: run(quick=True, progress=3))
+    rejected(ValueError, "no option folder (there are aspect", lambda: scarp.fault_estimate(folder="x"))
     for values in (60, "60", []):
-        refused(TypeError, f"over has dip={values!r} (expected is a sequence", lambda: scarp.study(scarp.fault_rupture, {"dip": values}, folder / "refused"))
-    refused(TypeError, "an option is <object", lambda: run(dip=object()))
-    refused(ValueError, "no program has both", lambda: run(element="tri6", device="cuda"))
-    refused(ValueError, "the command is 'biaxial' (expected is one of prepare, shear", lambda: scarp.rve_lab("biaxial", folder))
-    refused(ValueError, "expected is that of a run", lambda: scarp.FaultRun(folder / "nowhere"))
+        rejected(TypeError, f"over has dip={values!r} (expected is a sequence", lambda: scarp.study(scarp.fault_rupture, {"dip": values}, folder / "refused"))
+    rejected(TypeError, "an option is <object", lambda: run(dip=object()))
+    rejected(ValueError, "no program has both", lambda: run(element="tri6", device="cuda"))
+    rejected(ValueError, "the command is 'biaxial' (expected is one of prepare, shear", lambda: scarp.rve_lab("biaxial", folder))
+    rejected(ValueError, "expected is that of a run", lambda: scarp.FaultRun(folder / "nowhere"))
     expect(not (folder / "refused").exists(), "a run that is rejected leaves a folder")
     # Two iterations more than none: no balance is found, and the run stops.
-    refused(RuntimeError, "INCOMPLETE: stopped at h/H", lambda: scarp.fault_rupture(folder / "stopped", max_iterations=1, tolerance=1e-13, **SOIL))
+    rejected(RuntimeError, "INCOMPLETE: stopped at h/H", lambda: scarp.fault_rupture(folder / "stopped", max_iterations=1, tolerance=1e-13, **SOIL))
     expect(not scarp.FaultRun(folder / "stopped").finished, "a run that stopped early has finished")
     before = os.environ.get("SCARP_PROGRAMS")
     os.environ["SCARP_PROGRAMS"] = str(folder)
     broken = folder / "fault_rupture_tri6"
     broken.write_text("#!/bin/sh\necho no such instruction >&2; exit 3\n")
     broken.chmod(0o755)
-    refused(RuntimeError, "ended with 3 (no such instruction): build the program for this machine", lambda: run(element="tri6"))
-    refused(FileNotFoundError, "build it by './examples/run fault_rupture --element quad8 --help'", lambda: run(element="quad8"))
+    rejected(RuntimeError, "ended with 3 (no such instruction): build the program for this machine", lambda: run(element="tri6"))
+    rejected(FileNotFoundError, "build it by './examples/run fault_rupture --element quad8 --help'", lambda: run(element="quad8"))
     del os.environ["SCARP_PROGRAMS"]
     if before:
         os.environ["SCARP_PROGRAMS"] = before
     code = program_options.given("fault_rupture", {"quick": True})
-    refused(ZeroDivisionError, "division", lambda: programs.run("fault_rupture", [*program_options.command_line(code), f"--output={folder / 'told'}"],
+    rejected(ZeroDivisionError, "division", lambda: programs.run("fault_rupture", [*program_options.command_line(code), f"--output={folder / 'told'}"],
                                                                 lambda line: 1 / 0))
 
 
@@ -129,13 +121,13 @@ def check_scene(folder):
     expect(abs(run.surface.settlement[last].max() / (0.085 * 25.0) - 1.0) < 0.05, f"{run.surface.settlement[last].max()} m of settlement")
     expect(set(run.probes) == {"A", "B"} and len(run.probes["A"].q) == run.summary.steps, "the probes have other rows than load steps")
     expect(len(run.fields) == 3 and all(path.is_file() for path in run.fields) and not run.grains, f"{run.fields}")
-    refused(AttributeError, "there is no x51 (there are", lambda: run.surface.x51)
-    refused(FileNotFoundError, "footing.csv", lambda: run.footing)
+    rejected(AttributeError, "there is no x51 (there are", lambda: run.surface.x51)
+    rejected(FileNotFoundError, "footing.csv", lambda: run.footing)
     moment = changed(run.folder / "run.json")
     scarp.fault_rupture(folder / "scene", **{**SOIL, "frames": 2.0, "threads": 1, "dip": None})
     expect(changed(run.folder / "run.json") == moment, "a finished run with the same options is run again")
-    refused(ValueError, "it is of another scene ('dip = 60' there, 'dip = 50' here)", lambda: scarp.fault_rupture(folder / "scene", dip=50, **SOIL))
-    refused(ValueError, "out of range", lambda: scarp.fault_rupture(folder / "scene", dip=950, overwrite=True, **SOIL))
+    rejected(ValueError, "it is of another scene ('dip = 60' there, 'dip = 50' here)", lambda: scarp.fault_rupture(folder / "scene", dip=50, **SOIL))
+    rejected(ValueError, "out of range", lambda: scarp.fault_rupture(folder / "scene", dip=950, overwrite=True, **SOIL))
     expect(list((folder / "scene/checkpoints").iterdir()) and changed(run.folder / "run.json") == moment, "a rejected run has changed the one that was there")
     steeper = scarp.fault_rupture(folder / "scene", dip=50, overwrite=True, **SOIL)
     saved = [path.name for path in steeper.folder.glob("checkpoints*")]
@@ -153,7 +145,7 @@ def check_scene(folder):
         import pandas
         expect(isinstance(run.surface.table(), pandas.DataFrame), "no table of pandas")
     except ImportError:
-        refused(RuntimeError, "pandas is not installed", run.surface.table)
+        rejected(RuntimeError, "pandas is not installed", run.surface.table)
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         estimate = scarp.fault_estimate(**SOIL, grains=50)
@@ -192,7 +184,7 @@ def check_study(folder):
     table = runs.measures("surface_x50")
     expect(list(table) == ["k0", "dip", "surface_x50"] and table.dip.tolist() == [60.0, 70.0] * 2, f"{table}")
     expect(table.surface_x50[0] != table.surface_x50[1] and np.isfinite(table.surface_x50).all(), f"{table}")
-    refused(ValueError, "no summary has the number x51 (there are", lambda: runs.measures("x51"))
+    rejected(ValueError, "no summary has the number x51 (there are", lambda: runs.measures("x51"))
     expect(told and all(line.startswith("k0=") for line in told), "the progress of a study names no member")
     told.clear()
     again = study()
@@ -205,7 +197,7 @@ def check_study(folder):
     angles = scarp.study(functools.partial(scarp.rve_lab, "test"), {"friction_angle": [30.0, 33.0]}, folder / "angles", material="mohr-coulomb")
     residual = angles.measures("residual_friction_angle")  # analytic: the material's own
     expect(np.allclose(residual.residual_friction_angle, residual.friction_angle, rtol=1e-3), f"{residual}")
-    refused(ValueError, "two members have the folder 'sand=a'", lambda: scarp.study(scarp.fault_rupture, {"sand": ["x/a.sand", "y/a.sand"]}, folder / "two"))
+    rejected(ValueError, "two members have the folder 'sand=a'", lambda: scarp.study(scarp.fault_rupture, {"sand": ["x/a.sand", "y/a.sand"]}, folder / "two"))
 
 
 def check_seeds(folder):
@@ -227,16 +219,16 @@ def check_laboratory(folder):
     moment = changed(folder / "lab/run_shear.json")
     scarp.rve_lab("shear", folder / "lab", packing=prepared.packing, strain=0.01)
     expect(changed(folder / "lab/run_shear.json") == moment, "a finished path is sent again")
-    refused(ValueError, "its results would be lost", lambda: scarp.rve_lab("shear", folder / "lab", packing=prepared.packing, strain=0.02))
-    refused(ValueError, "rve_lab shear has no option frames", lambda: scarp.rve_lab("shear", folder / "lab", frames=2))
-    refused(RuntimeError, "could not be consolidated", lambda: scarp.rve_lab("prepare", folder / "no", grains=60, pressure=1e12))
+    rejected(ValueError, "its results would be lost", lambda: scarp.rve_lab("shear", folder / "lab", packing=prepared.packing, strain=0.02))
+    rejected(ValueError, "rve_lab shear has no option frames", lambda: scarp.rve_lab("shear", folder / "lab", frames=2))
+    rejected(RuntimeError, "could not be consolidated", lambda: scarp.rve_lab("prepare", folder / "no", grains=60, pressure=1e12))
     # Analytic: Mohr-Coulomb material reaches its own friction angle.
     tested = scarp.rve_lab("test", folder / "test", material="mohr-coulomb", friction_angle=33.0, dilation_angle=7.0)
     expect(abs(tested.summary.mean.peak.friction_angle / 33.0 - 1.0) < 1e-3 and len(tested.curve.q) > 100, f"{tested.summary.mean}")
     replayed = scarp.rve_lab("replay", folder / "again", particles=folder / "lab/packing_particles.csv", contacts=folder / "lab/packing_contacts.csv",
                              path="biaxial", strain=1e-3)
     expect(len(replayed.curve.strain) > 5, f"{replayed}")
-    refused(ValueError, "it would be lost", lambda: scarp.rve_lab("replay", folder / "again", particles=folder / "lab/packing_particles.csv"))
+    rejected(ValueError, "it would be lost", lambda: scarp.rve_lab("replay", folder / "again", particles=folder / "lab/packing_particles.csv"))
 
 
 def check_calibration(folder):
