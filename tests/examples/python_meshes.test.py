@@ -6,7 +6,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish, leave_out
+from expectations import expect, finish, leave_out, rejected
 
 module = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve().parent / "python"
 if not list(module.glob("scarp/_points*")):
@@ -18,14 +18,6 @@ import scarp
 
 quadratic = {"tri3": "tri6", "quad4": "quad8", "tet4": "tet10", "hex8": "hex20"}
 young, poisson = 20e6, 0.3
-
-
-def refused(kind, said, call):
-    try:
-        call()
-        expect(False, f"no refusal that says '{said}'")
-    except kind as trouble:
-        expect(said in str(trouble), f"'{trouble}' does not say '{said}'")
 
 
 def box(element, **rest):
@@ -49,7 +41,7 @@ for linear, name in quadratic.items():
     expect(list(mesh.boundaries) == list(other.boundaries), f"{name}: {list(mesh.boundaries)}")
     for side in other.boundaries:
         expect(np.allclose(places(mesh, mesh.boundaries[side]), places(other, other.boundaries[side]), rtol=0.0, atol=1e-9), f"{name}: other facets of {side}")
-    refused(ValueError, f"the mesh has {name}", mesh.quadratic)
+    rejected(ValueError, f"the mesh has {name}", mesh.quadratic)
 
     # All sides of a box are its outline, which runs in the sense of the outward normal: the volume by Gauss's theorem is that of the box.
     for one in (box(linear), mesh, other):
@@ -116,7 +108,7 @@ expect(two.nodes[0, 0] == 0.0 and two.element_region[0] == 1 and two.regions[0] 
 turned = box("hex8")
 turned.boundaries["top"] = np.roll(turned.boundaries["top"], 1, axis=1)[:, ::-1]
 scarp.Model(turned.quadratic())  # rejects facets whose nodes are in another order than their element's
-refused(ValueError, "'top' holds the facet [1, 3]",
+rejected(ValueError, "'top' holds the facet [1, 3]",
         lambda: scarp.Mesh("quad4", [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]], boundaries={"top": [[2, 3], [1, 3]]}).quadratic())
 
 # Half a strip footing on ground with cohesion alone carries (2 + pi) c by Prandtl. With as many nodes, linear triangles lock and carry more.
@@ -160,10 +152,10 @@ else:
     expect(np.allclose(analysis.reaction("bottom"), [0.0, 2e3], rtol=0.0, atol=1e-2), f"the base carries {analysis.reaction('bottom')} N of 2000 N")
 
 mesh = box("quad4")
-refused(ValueError, "the mesh has a boundary 'left'", lambda: mesh.name_boundary("left", lambda x: x[:, 0] < 1.0))
-refused(ValueError, "x from 0 to 2 m, y from 0 to 1 m", lambda: mesh.name_boundary("far", lambda x: x[:, 0] > 3.0))
+rejected(ValueError, "the mesh has a boundary 'left'", lambda: mesh.name_boundary("left", lambda x: x[:, 0] < 1.0))
+rejected(ValueError, "x from 0 to 2 m, y from 0 to 1 m", lambda: mesh.name_boundary("far", lambda x: x[:, 0] > 3.0))
 for answer in (lambda x: x < 1.0, lambda x: True, lambda x: x[:, 0], lambda x: [True], lambda x: None, lambda x: np.flatnonzero(x[:, 0] < 1.0)):
-    refused(ValueError, "(bool and (14,) are expected)", lambda: mesh.name_boundary("far", answer))
+    rejected(ValueError, "(bool and (14,) are expected)", lambda: mesh.name_boundary("far", answer))
 expect(list(mesh.boundaries) == ["bottom", "left", "right", "top"], f"a rejected boundary is there: {list(mesh.boundaries)}")
 
 # What a mesh cannot be is said when it is made.
@@ -187,7 +179,7 @@ for kind, said, wrong in (
         (ValueError, "the facets of the boundary 'top' have the shape (1, 3) ((n, 2) is expected)", {"boundaries": {"top": [[2, 3, 1]]}}),
         (ValueError, "the facets of the boundary 'top' have the number 9", {"boundaries": {"top": [[2, 9]]}}),
         (TypeError, "the boundaries are list", {"boundaries": []})):
-    refused(kind, said, lambda: scarp.Mesh(**{**square, **wrong}))
+    rejected(kind, said, lambda: scarp.Mesh(**{**square, **wrong}))
 expect(repr(scarp.Mesh(**square)) == "Mesh(quad4, 4 nodes, 1 elements, regions: soil, boundaries: none)", repr(scarp.Mesh(**square)))
 
 # What meshio has and the mesh has not.
@@ -230,5 +222,5 @@ else:
         outline = axes.collections[0].get_paths()[0].vertices
         expect(np.allclose(outline[:len(outline) - 1:len(outline) // 3], [[0, 0], [1, 1], [0, 1]]), f"{mesh}: clay is drawn as {outline}")
     scarp.Mesh(**{**square, "regions": ["soil", "empty"]}).plot()
-    refused(ValueError, "plot draws plane meshes", box("tet4").plot)
+    rejected(ValueError, "plot draws plane meshes", box("tet4").plot)
 finish()
