@@ -33,7 +33,7 @@ for notebook in notebooks:
         copied = pathlib.Path(scratch) / notebook.name
         copied.write_bytes(notebook.read_bytes())
         run = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output", "done.ipynb", copied], cwd=scratch,
-                             env={**os.environ, "PYTHONPATH": str(programs.parent / "python")}, capture_output=True, text=True, timeout=900)
+                             env={**os.environ, "PYTHONPATH": str(programs.parent / "python"), "SCARP_PROGRAMS": str(programs)}, capture_output=True, text=True, timeout=900)
         expect(run.returncode == 0, f"{notebook.name}: {run.stderr[-2000:]}")
         if run.returncode == 0:
             cells = json.loads((pathlib.Path(scratch) / "done.ipynb").read_text())["cells"]
