@@ -279,17 +279,19 @@ template <int Dim>
 void bind(py::module_& module, std::string const& suffix) {
   using Own = OwnModel<Dim>;
   constexpr py::ssize_t size = scarp::voigt_size<Dim>;
-  auto const each = [](Sides const& sides, auto const& task) {
+  // An unknown name is rejected before anything has changed.
+  auto const each = [](Own& self, Sides const& sides, auto const& task) {
+    for (auto const& side : sides) static_cast<void>(self.now().grid().boundary_nodes(side));
     for (auto const& side : sides) task(std::string_view(side));
   };
   py::class_<Own>(module, ("Model" + suffix).c_str(), "See scarp.Model.")
       .def(py::init(&model_of<Dim>))
       .def("fix", [=](Own& self, Sides const& sides,
-                      int axis) { each(sides, [&](auto side) { self.now().fix({side}, axis); }); })
+                      int axis) { each(self, sides, [&](auto side) { self.now().fix({side}, axis); }); })
       .def("move",
            [=](Own& self, Sides const& sides, int axis, double rate, Knots const& knots) {
              auto const amplitude = course(knots).value_or(scarp::TimeFunction());
-             each(sides, [&](auto side) { self.now().move({side}, axis, rate, amplitude); });
+             each(self, sides, [&](auto side) { self.now().move({side}, axis, rate, amplitude); });
            })
       .def("gravity",
            [](Own& self, double weight, std::optional<std::string> const& region) {
@@ -297,11 +299,11 @@ void bind(py::module_& module, std::string const& suffix) {
            })
       .def("traction",
            [=](Own& self, Sides const& sides, scarp::Vector<Dim> const& force, Knots const& knots) {
-             each(sides, [&](auto side) { self.now().traction({side}, force, course(knots)); });
+             each(self, sides, [&](auto side) { self.now().traction({side}, force, course(knots)); });
            })
       .def("surcharge",
            [=](Own& self, Sides const& sides, double pressure, Knots const& knots) {
-             each(sides, [&](auto side) { self.now().surcharge({side}, pressure, course(knots)); });
+             each(self, sides, [&](auto side) { self.now().surcharge({side}, pressure, course(knots)); });
            })
       .def(
           "water",
@@ -348,11 +350,10 @@ void bind(py::module_& module, std::string const& suffix) {
       });
 
   using All = OwnAnalysis<Dim>;
-  auto const bytes = [](All& self) {
-    return self.at_work([](scarp::Analysis<Dim>& analysis) {
-      return py::bytes(
-          scarp::detail::framed(analysis_format, [&](scarp::StateWriter& writer) { writer("analysis", analysis); }));
-    });
+  auto const bytes = [](All const& self) {
+    auto const& analysis = self.seen();
+    return py::bytes(
+        scarp::detail::framed(analysis_format, [&](scarp::StateWriter& writer) { writer("analysis", analysis); }));
   };
   py::class_<All>(module, ("Analysis" + suffix).c_str(), "See scarp.Analysis.")
       .def(py::init([](Own& model, std::optional<double> tolerance, int max_iterations, double first, double smallest,
@@ -366,6 +367,7 @@ void bind(py::module_& module, std::string const& suffix) {
       .def("to", &advance<Dim>)
       .def("find_collapse", &find_collapse<Dim>)
       .def_property_readonly("load", [](All const& self) { return self.seen().load(); })
+      .def("next_knot", [](All const& self, double load) { return self.seen().problem().next_knot(load); })
       .def("displacement",
            [](All const& self, std::string const& side, int axis) { return self.seen().displacement(side, axis); })
       .def("reaction", [](All const& self, std::string const& side) { return self.seen().reaction(side); })
@@ -454,10 +456,14 @@ void bind_problems(py::module_& module) {
       .def_property_readonly("reason", [](scarp::StepReport const& step) { return scarp::name(step.verdict.reason); })
       .def_property_readonly("iterations", &scarp::StepReport::iterations)
       .def_property_readonly("residual", &scarp::StepReport::residual);
-  py::class_<scarp::FieldSeries>(module, "FieldSeries", "See scarp.FieldSeries.")
+  py::class_<scarp::FieldSeries>(
+      module, "FieldSeries",
+      "Fields for ParaView: folder/fields.pvd, written after the first load step and then `count` times up to the load "
+      "factor `to`.")
       .def(py::init([](std::filesystem::path const& folder, double to, int count) {
-        return std::make_unique<scarp::FieldSeries>(folder, scarp::LoadSchedule{.to = to, .count = count});
-      }));
+             return std::make_unique<scarp::FieldSeries>(folder, scarp::LoadSchedule{.to = to, .count = count});
+           }),
+           py::arg("folder"), py::arg("to") = 1.0, py::arg("count") = 10);
   bind<2>(module, "");
   bind<3>(module, "InSpace");
 }

@@ -17,7 +17,7 @@
 
 namespace python_points {
 
-/// A material that a program of Python has written as a class, see scarp.material. It sees the strain of an increment before its
+/// A material that a program of Python has written as a class, see scarp.PythonMaterial. It sees the strain of an increment before its
 /// rotation, and its stress is rotated here. Its states are numbers of C++, so that they are saved and copied as all others.
 /// \tparam Exact whether its tangents are the derivatives of its stresses
 template <int Dim, bool Exact>
@@ -53,7 +53,8 @@ struct PythonMaterial {
     bool const is_of_many = py::hasattr(object, "respond_all");
     if (is_of_many == py::hasattr(object, "respond") || !py::hasattr(object, "start"))
       scarp::reject(
-          "a material of the type {} has not the functions that are expected (start, and one of respond and respond_all): correct it",
+          "a material of the type {} has not the functions that are expected (start, and one of respond and "
+          "respond_all): correct it",
           std::string(py::str(py::type::of(object))));
     auto* const kept = new py::object(object);
     auto const drop = [](py::object const* held) {
@@ -206,7 +207,7 @@ struct PythonMaterial {
       auto const whose = fmt::format("{} points", count);
       require_shape(parts.stress, {count, size}, "stress", whose);
       require_shape(parts.tangent, {count, size, size}, "tangent", whose);
-      if (kept > 0) require_shape(parts.variables, {count, kept}, "variables", whose);
+      if (kept > 0 || parts.variables.size() > 0) require_shape(parts.variables, {count, kept}, "variables", whose);
       for (py::ssize_t k = 0; k < count; ++k) {
         State& trial = *requests[static_cast<std::size_t>(k)].trial;
         read_into(parts.stress.data(k, 0), parts.tangent.data(k, 0, 0), trial);

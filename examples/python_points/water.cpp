@@ -25,8 +25,12 @@ template <class GridType>
 bool attached_to(scarp::Model<GridType::dim>& model, WaterOptions const& options) {
   auto const* const grid = dynamic_cast<GridType const*>(&model.grid());
   if (!grid) return false;
+  if (options.grain != 0.0 && options.conductivity != 0.0)
+    scarp::reject(
+        "water has a conductivity of {} m/s and a grain of {} m (one of them gives the permeability): leave one out",
+        options.conductivity, options.grain);
   scarp::Water const water{.bulk_modulus = options.bulk_modulus};
-  EitherFlow const flow{options.grain > 0.0, {options.conductivity, water}, {.grain = options.grain, .water = water}};
+  EitherFlow const flow{options.grain != 0.0, {options.conductivity, water}, {.grain = options.grain, .water = water}};
   scarp::PoreWater attached(
       *grid, flow, {.shear_modulus = options.shear_modulus, .void_ratio = options.void_ratio, .clock = options.clock});
   for (auto const& side : options.drained) attached.drain({side});

@@ -277,6 +277,18 @@ TEST_CASE("files have the pressure of all nodes, reports the imbalance of the wa
         "pore pressure at node 0 at (0, 0)");
 }
 
+TEST_CASE("the reaction is that of the committed pressures, whatever was asked in between") {
+  auto const grid = column_grid<Quad8>();
+  PoreWater water(grid, ConstantPermeability{.conductivity = 1e-6}, {.shear_modulus = shear});
+  water.prescribe({"bottom"}, load, TimeFunction::ramp(0.0, 1.0));
+  scarp::Model<2> const model = column(grid, water);
+  scarp::Analysis analysis(model, {.stepping = steps});
+  REQUIRE(analysis.to(0.5).verdict.acceptable());
+  double const carried = analysis.reaction("bottom").y();
+  analysis.problem().set_load(1.0);  // as a step that is rejected
+  CHECK(analysis.reaction("bottom").y() == carried);
+}
+
 TEST_CASE("pore water without sense is refused") {
   auto const grid = column_grid<Quad8>();
   ConstantPermeability const clay{.conductivity = 1e-9};

@@ -13,7 +13,7 @@ except ImportError as missing:
     _built = ", ".join(path.name for path in pathlib.Path(__file__).parent.glob("_points*")) or "nothing"
     raise ImportError(f"scarp's compiled part does not load in Python {sys.version.split()[0]} ({missing}; there is {_built}): run the Python that it was built "
                       "for, or build it with -D Python_EXECUTABLE=" + sys.executable) from missing
-from ._points import build, load, reasons, statuses
+from ._points import FieldSeries, build, load, reasons, statuses
 from .fault import FaultRun, fault_estimate, fault_rupture
 from .figures import Frames, History, plot_packing
 from .lab import LabRun, calibrate, rve_lab
@@ -21,7 +21,7 @@ from .materials import (MaterialPoints, discs, ellipses, ground_of_discs, ground
                         umat)
 from .meshes import Mesh, box_mesh, read_gmsh
 from .micro_simulation import MicroSimulation
-from .problem import Analysis, Collapse, FieldSeries, Model, NotConverged, PythonMaterial, Run, SafetyFactor, load_analysis, reduce_strength
+from .problem import Analysis, Collapse, Model, NotConverged, PythonMaterial, Run, SafetyFactor, load_analysis, reduce_strength
 from .program_options import options
 from .study import study
 

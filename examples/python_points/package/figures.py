@@ -150,7 +150,8 @@ class Frames:
 
         axes = self._analysis.plot(self.steps[-1][2], self._label)
         cells = axes.collections[0]
-        cells.set_clim(0.0, max(float(values.max()) for _, _, values in self.steps))
+        ends = [float(end) for _, _, values in self.steps for end in (values.min(), values.max())]
+        cells.set_clim(min(0.0, *ends), max(0.0, *ends))
 
         def draw(k: int) -> Tuple[Any, ...]:
             load, positions, values = self.steps[k]

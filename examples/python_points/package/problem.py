@@ -2,6 +2,7 @@
 """Boundary-value problems as they are written down, and their way through a load factor."""
 from __future__ import annotations
 
+import copy
 import dataclasses
 import os
 import pickle
@@ -13,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _points
+from ._points import FieldSeries
 from .meshes import Mesh, Path
 
 Floats = npt.NDArray[np.float64]
@@ -69,19 +71,26 @@ class Model:
     def __init__(self, mesh: Mesh, kinematics: str = "updated_lagrangian", thickness: float = 1.0) -> None:
         if not isinstance(mesh, Mesh):
             raise TypeError(f"the mesh is {type(mesh).__name__} (a scarp.Mesh is expected): make one by scarp.read_gmsh, scarp.box_mesh or scarp.Mesh")
+        mesh = copy.deepcopy(mesh)  # what becomes of the caller's is not of this model
+        for array in (mesh.nodes, mesh.elements, mesh.element_region, *mesh.boundaries.values()):
+            array.setflags(write=False)
         self.mesh = mesh
         self._made = (mesh, kinematics, thickness)
         self._calls: List[Tuple[str, Tuple[Any, ...]]] = []
         self._has_analysis = False
+        self._level: Optional[float] = None
         make = _points.Model if mesh.dim == 2 else _points.ModelInSpace
         self._model = make(mesh.element, mesh.nodes, mesh.elements, mesh.element_region, mesh.regions, mesh.boundaries, kinematics, float(thickness))
 
     def __repr__(self) -> str:
         return f"Model({self.mesh!r}, {self._made[1]})"
 
-    def _do(self, name: str, *values: Any) -> None:
+    def _warn_of_analysis(self, name: str) -> None:
         if self._has_analysis:
-            warnings.warn(f"{name} is called after an analysis was made of the model (it does not see the change): make another analysis", stacklevel=3)
+            warnings.warn(f"{name} is called after an analysis was made of the model (it does not see the change): make another analysis", stacklevel=4)
+
+    def _do(self, name: str, *values: Any) -> None:
+        self._warn_of_analysis(name)
         getattr(self._model, name)(*values)
         self._calls.append((name, values))
 
@@ -159,6 +168,7 @@ class Model:
     def set_surface_level(self, height: float) -> None:
         """Height [m] from which depths are measured, by default that of the highest node."""
         self._do("set_surface_level", float(height))
+        self._level = float(height)
 
     def geostatic(self, k0: float, region: str = "") -> Dict[str, float]:
         """Stress at rest of level ground, as keywords of a material: `surcharge` [Pa], `unit_weight` [N/m3] and `k0`.
@@ -194,34 +204,41 @@ class Model:
         exact_tangent : bool
             Of a material in Python: whether its tangents are the derivatives of its stresses; by default its own attribute of that name, else false.
         """
+        self._warn_of_analysis("material")
         known = (_points.Material, _points.MaterialInSpace)
         own = material
         if not isinstance(material, known):
             exact = getattr(material, "exact_tangent", False) if exact_tangent is None else exact_tangent
             own = (_points.python_material if self.dim == 2 else _points.python_material_in_space)(material, bool(exact))
-            _require_stress_kept(material, self.positions(region)[0], region)
+            self._require_stress_kept(material, region)
         elif not isinstance(material, known[self.dim - 2]):
             raise ValueError(f"the material of '{region}' has {material.dim} dimensions (the mesh has {self.dim}): make it with dim={self.dim}")
         self._model.material(region, own, float(length))
         self._calls.append(("material", (region, material, length, exact_tangent)))
 
-
-def _require_stress_kept(material: Any, position: Floats, region: str) -> None:
-    """A strain of zero is to change no stress. ValueError"""
-    stress, tangent, *variables = material.start(position, 1.0)
-    stress, kept = np.asarray(stress, dtype=float), np.asarray(variables[0] if variables else [], dtype=float)
-    if hasattr(material, "respond"):
-        answer = material.respond(np.zeros_like(stress), stress, kept)
-    else:
-        answer = material.respond_all(np.zeros((1, len(stress))), stress[None], kept[None])
-    try:
-        found = np.ravel(np.asarray(answer[0], dtype=float))
-    except (TypeError, ValueError):
-        return  # the first response rejects it in words
-    size = np.abs(stress).max() + 1e-9 * np.abs(np.asarray(tangent, dtype=float)).max()
-    if found.shape == stress.shape and np.isfinite(found).all() and np.abs(found - stress).max() > 1e-6 * size:
-        raise ValueError(f"the material of '{region}' turns the stress {stress} Pa into {found} Pa for a strain of zero (it is expected to keep it): add the "
-                         "change of stress to the one that is given")
+    def _require_stress_kept(self, material: Any, region: str) -> None:
+        """A strain of zero is to change no stress. ValueError"""
+        position = self.positions(region)[0]
+        level = float(np.asarray(self.mesh.nodes)[:, -1].max()) if self._level is None else self._level
+        begin = material.start(position, max(level - float(position[-1]), 0.0))
+        if not isinstance(begin, tuple) or len(begin) not in (2, 3):
+            raise ValueError(f"start of the material of '{region}' returned {begin!r} (a tuple of stress, tangent and, where it has some, variables is "
+                             "expected): correct it")
+        stress, kept = np.asarray(begin[0], dtype=float), np.asarray(begin[2] if len(begin) == 3 else [], dtype=float)
+        if not np.isfinite(stress).all():
+            raise ValueError(f"start of the material of '{region}' returned the stress {stress} Pa (finite numbers are expected): correct it")
+        if hasattr(material, "respond"):
+            end = material.respond(np.zeros_like(stress), stress, kept)
+        else:
+            end = material.respond_all(np.zeros((1, len(stress))), stress[None], kept[None])
+        try:
+            found = np.ravel(np.asarray(end[0], dtype=float))
+        except (TypeError, ValueError):
+            return  # the first response rejects it in words
+        size = np.abs(stress).max() + 1e-9 * np.abs(np.asarray(begin[1], dtype=float)).max()
+        if found.shape == stress.shape and np.isfinite(found).all() and np.abs(found - stress).max() > 1e-6 * size:
+            raise ValueError(f"the material of '{region}' turns the stress {stress} Pa into {found} Pa for a strain of zero (it is expected to keep it): add "
+                             "the change of stress to the one that is given")
 
 
 def _model(made: Tuple[Any, ...], calls: Sequence[Tuple[str, Tuple[Any, ...]]]) -> Model:
@@ -350,7 +367,7 @@ class Analysis:
         self.model = model
         self._settings = (None if tolerance is None else float(tolerance), max_iterations, float(first), float(smallest), float(largest),
                           float(max_displacement_gradient), float(tangent_floor), threads)
-        self._copy = pickle.dumps(model)  # what later calls change in the model is not of this analysis
+        self._recipe = (model._made, tuple(model._calls))  # what later calls change in the model is not of this analysis
         model._has_analysis = True
         self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings)
 
@@ -367,7 +384,7 @@ class Analysis:
         """Load factor of the committed state."""
         return float(self._analysis.load)
 
-    def to(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False,
+    def to(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Optional[FieldSeries] = None, progress: bool = False,
            time_limit: Optional[float] = None) -> Run:
         """Raises the load factor.
 
@@ -392,9 +409,9 @@ class Analysis:
         Raises
         ------
         NotConverged
-            Where the load factor is not reached, unless an observer has ended the run. What was reached is committed.
+            Where the load factor is not reached, unless an observer or the time limit has ended the run. What was reached is committed.
         KeyboardInterrupt
-            Within a second; the committed state remains.
+            After the present factorisation, within a second in packings; the committed state remains.
         """
         with _Watch(self, observers, load, progress) as watch:
             run = Run(**self._analysis.to(float(load), watch.observer, fields, time_limit))
@@ -403,7 +420,7 @@ class Analysis:
             raise NotConverged(run)
         return run
 
-    def find_collapse(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Any = None, progress: bool = False,
+    def find_collapse(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Optional[FieldSeries] = None, progress: bool = False,
                       time_limit: Optional[float] = None, failed: float = 100.0, failing: float = 10.0) -> Collapse:
         """Raises the load factor until the ground fails: until displacement gradients per load are `failed` times those of the first step that moves,
         of this call and after each knot of the amplitudes, or `failing` times where no equilibrium follows. Ground with friction fails slowly:
@@ -554,14 +571,19 @@ class Analysis:
 
     def save(self, file: Path) -> None:
         """Saves model and state; `scarp.load_analysis` resumes with the same bits. The file is complete when it appears."""
+        saved = pickle.dumps(self)
         path = os.fspath(file)
         part = f"{path}.part{os.getpid()}"
-        with open(part, "wb") as stream:
-            pickle.dump(self, stream)
-        os.replace(part, path)
+        try:
+            with open(part, "wb") as stream:
+                stream.write(saved)
+            os.replace(part, path)
+        finally:
+            if os.path.exists(part):
+                os.unlink(part)
 
     def __reduce__(self) -> Any:
-        return _analysis, (self._copy, self._settings, self._analysis.bytes())
+        return _analysis, (self._recipe, self._settings, self._analysis.bytes())
 
 
 class _Watch:
@@ -607,8 +629,8 @@ def _bar(begin: float, end: float) -> Any:
     return tqdm(total=end, initial=begin, unit="load", bar_format="{l_bar}{bar}| {n:.3g}/{total:.3g} [{elapsed}<{remaining}]")
 
 
-def _analysis(model: bytes, settings: Tuple[Any, ...], state: bytes) -> Analysis:
-    analysis = Analysis(pickle.loads(model), *settings)
+def _analysis(recipe: Tuple[Any, ...], settings: Tuple[Any, ...], state: bytes) -> Analysis:
+    analysis = Analysis(_model(*recipe), *settings)
     analysis._analysis.read(state)
     return analysis
 
@@ -624,8 +646,9 @@ def load_analysis(file: Path) -> Analysis:
     with open(file, "rb") as stream:
         try:
             found = pickle.load(stream)
-        except (pickle.UnpicklingError, EOFError, AttributeError, IndexError) as trouble:
-            raise ValueError(f"'{os.fspath(file)}' holds no analysis ({trouble}): give a file of Analysis.save") from trouble
+        except (pickle.UnpicklingError, EOFError, AttributeError, ImportError, IndexError) as trouble:
+            raise ValueError(f"'{os.fspath(file)}' cannot be read ({trouble}): give a file of Analysis.save, and import the class of a material in Python "
+                             "where it was when it was saved") from trouble
     if not isinstance(found, Analysis):
         raise ValueError(f"'{os.fspath(file)}' holds {type(found).__name__} (an analysis is expected): give a file of Analysis.save")
     return found
@@ -666,7 +689,11 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
     factors = [least, most]
     while factors:
         factor = factors.pop(0)
-        end = Analysis(make_model(factor), **{**usual, **settings}).find_collapse(load)
+        analysis = Analysis(make_model(factor), **{**usual, **settings})
+        knot = analysis._analysis.next_knot(load)
+        if np.isfinite(knot):
+            raise ValueError(f"a factor of safety is requested at the load factor {load} (loads change at {knot}): give it a larger load factor")
+        end = analysis.find_collapse(load)
         if end.run.status in ("ok", "fluid"):
             stands = factor
         else:
@@ -679,22 +706,6 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
     if not why:
         why = f"it stands at the largest factor, {most}: give a larger one, if make_model uses its factor"
     return SafetyFactor(stands, fails, why)
-
-
-class FieldSeries:
-    """Fields for ParaView: folder/fields.pvd, written after the first load step and then `count` times up to `to`.
-
-    Parameters
-    ----------
-    folder : path
-    to : float
-        Load factor of the last file.
-    count : int
-        Number of files after the first.
-    """
-
-    def __new__(cls, folder: Path, to: float = 1.0, count: int = 10) -> Any:
-        return _points.FieldSeries(folder, float(to), count)
 
 
 class PythonMaterial:

@@ -42,7 +42,7 @@ struct NoAttachment {};
 
 /// Values at all nodes of a mesh under a name, for files.
 struct NodalField {
-  std::string name;
+  std::string name;            ///< in files
   std::vector<double> values;  ///< shape (nodes)
 };
 
@@ -50,7 +50,8 @@ struct NodalField {
 /// solved together with the displacements, and what is known of them belongs to the field itself. is_field: true;
 /// at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor beyond one
 /// where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its own equations,
-/// relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words; nodal_fields(): committed.
+/// relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words; nodal_fields() and ground_force(), what it
+/// does to the mesh [N], shape (dof_count of the mesh): committed.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -60,6 +61,7 @@ concept FieldAttachment = Part::is_field &&
   { constant.residual(unbalanced) } -> std::same_as<double>;
   { constant.describe(0) } -> std::convertible_to<std::string>;
   { constant.nodal_fields() } -> std::same_as<std::vector<NodalField>>;
+  { constant.ground_force() } -> std::same_as<Eigen::VectorXd>;
 };
 
 namespace detail {
@@ -91,6 +93,7 @@ class AttachedPart {
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;  ///< of a field
   virtual std::string describe(int number) const = 0;
   virtual std::vector<NodalField> nodal_fields() const = 0;
+  virtual Eigen::VectorXd ground_force() const = 0;  ///< of a field
   virtual void write(StateWriter& writer) const = 0;
   virtual void read(StateReader& reader) = 0;
 
@@ -126,8 +129,8 @@ class AttachedPartOf final : public AttachedPart<Dim> {
                 "scarp: what is attached needs extra_dofs(), add_forces(), add_stiffness() and commit()");
   static constexpr bool is_a_field = FieldAttachment<Part>;
   static_assert(is_a_field || !NamesField<Part>,
-                "scarp: an attachment that is a field needs at(), next_knot(), name(), residual(), describe() and "
-                "nodal_fields()");
+                "scarp: an attachment that is a field needs at(), next_knot(), name(), residual(), describe(), "
+                "nodal_fields() and ground_force()");
 
  public:
   using typename AttachedPart<Dim>::Nodes, typename AttachedPart<Dim>::Entries;
@@ -178,6 +181,10 @@ class AttachedPartOf final : public AttachedPart<Dim> {
   }
   std::vector<NodalField> nodal_fields() const override {
     if constexpr (is_a_field) return part_.nodal_fields();
+    return {};
+  }
+  Eigen::VectorXd ground_force() const override {
+    if constexpr (is_a_field) return part_.ground_force();
     return {};
   }
   void write(StateWriter& writer) const override { described(writer, part_); }

@@ -116,8 +116,8 @@ class PoreWater {
   // What an attachment needs.
   /// Pressures over scale() [m], without the given ones; their balance is that of volumes times scale() [N].
   int extra_dofs() const { return detail::count(boundaries_.unknowns()); }
-  double scale() const { return scale_; }  ///< [Pa/m]
-  double thickness() const { return field_.grid().thickness(); }
+  double scale() const { return scale_; }                         ///< [Pa/m]
+  double thickness() const { return field_.grid().thickness(); }  ///< of the mesh [m]
   Verdict add_forces(std::vector<Vector<dim>> const&, Values const& increment, Values& forces) {
     evaluate(increment);
     forces.head(trial_.of_ground.size()) += trial_.of_ground;
@@ -142,6 +142,13 @@ class PoreWater {
     return "pore pressure at " + field_.describe(boundaries_.unknowns()[detail::index(number)]);
   }
   std::vector<NodalField> nodal_fields() const { return {{"excess_pore_pressure", pressures()}}; }
+  /// Committed force [N] of the pressures on the nodes of the mesh.
+  Values ground_force() const {
+    Values force;
+    field_.grid().internal_force(Values::Zero(field_.grid().dof_count()),
+                                 detail::stresses_of<dim>(field_.shapes() * view(pressure_)), force);
+    return force;
+  }
 
   void after_loading() { step_.is_known = false; }  ///< The next step computes its matrices anew.
   SCARP_MEMBERS_EXCEPT((settings_, boundaries_, scale_, step_, trial_), field_, flow_, pressure_, left_, then_,
@@ -231,15 +238,12 @@ void PoreWater<GridType, Flow>::evaluate(Values const& increment) {
   std::vector<Gradient<dim>> gradients(detail::index(grid.point_count()));
   grid.gradients(move, gradients);
   trial_.growth.resize(at_points.size());
-  trial_.stresses.resize(gradients.size());
+  trial_.stresses = detail::stresses_of<dim>(at_points);
   Values displaced = (at_points - field_.shapes() * view(pressure_)).cwiseAbs() / settings_.shear_modulus;
   for (Eigen::Index point = 0; point < at_points.size(); ++point) {
     auto const& gradient = gradients[static_cast<std::size_t>(point)];
     trial_.growth(point) = GridType::follows_motion ? detail::volume_growth<dim>(gradient) : gradient.trace();
     displaced(point) += gradient.norm();
-    auto& stress = trial_.stresses[static_cast<std::size_t>(point)];
-    stress.setZero();
-    stress.template head<dim>().setConstant(-at_points(point));
   }
   grid.internal_force(move, trial_.stresses, trial_.of_ground);
   Values const flown = step_.flow * trial_.pressure;

@@ -38,14 +38,16 @@ struct Water {
 /// One hydraulic conductivity, whatever becomes of the pores: Darcy's law \f$ q = -k_h \nabla u/\gamma_w \f$.
 struct ConstantPermeability {
   double conductivity = 0.0;  ///< k_h [m/s]; 0: impermeable
-  Water water{};
+  Water water{};              ///< in the pores
 
   /// \throws InputError for a negative conductivity and wrong numbers of the water
   void validate() const {
     require_not_negative("hydraulic conductivity", conductivity);
     water.validate();
   }
+  /// Permeability over viscosity [m2/(Pa s)].
   double mobility(double) const { return conductivity / water.unit_weight; }
+  /// Of the water alone [1/Pa].
   double storage(double void_ratio) const { return water.storage(void_ratio); }
 };
 
@@ -54,7 +56,7 @@ struct ConstantPermeability {
 struct KozenyCarman {
   double grain = 0.0;     ///< d [m], diameter of equal spheres with the surface of the grains
   double factor = 180.0;  ///< of spheres
-  Water water{};
+  Water water{};          ///< in the pores
 
   /// \throws InputError for a diameter or factor that is not positive and wrong numbers of the water
   void validate() const {
@@ -62,10 +64,12 @@ struct KozenyCarman {
     require_positive("factor of a permeability", factor);
     water.validate();
   }
+  /// Permeability over viscosity [m2/(Pa s)].
   double mobility(double void_ratio) const {
     double const e = void_ratio;
     return grain * grain * e * e * e / (factor * (1.0 + e) * water.viscosity);
   }
+  /// Of the water alone [1/Pa].
   double storage(double void_ratio) const { return water.storage(void_ratio); }
 };
 

@@ -124,8 +124,7 @@ Vector<Dim> Analysis<Dim>::reaction(std::string_view side) const {
   auto const& grid = problem_.grid();
   Eigen::VectorXd forces;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
-  if (problem_.has_attachment())
-    forces += problem_.attached_forces(Eigen::VectorXd::Zero(problem_.dof_count())).head(forces.size());
+  if (problem_.has_field()) forces += problem_.attachment()->ground_force();
   forces -= external_.at(load_);
   Vector<dim> sum = Vector<dim>::Zero();
   for (int const node : grid.boundary_nodes(side)) sum += forces.template segment<dim>(dim * node);

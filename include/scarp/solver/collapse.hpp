@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "scarp/solver/analysis.hpp"
@@ -59,7 +60,8 @@ class CollapseWatch {
     double const compliance = problem.max_displacement_gradient() / report.load_increment;
     bool const accepted = report.verdict.acceptable();
     if (first_ == 0.0) {
-      next_knot_ = problem.next_knot(begin + round_off);
+      next_knot_ = std::numeric_limits<double>::infinity();
+      if constexpr (requires { problem.next_knot(begin); }) next_knot_ = problem.next_knot(begin + round_off);
       if (accepted && problem.max_displacement_gradient() > round_off) first_ = compliance;
     }
     double const ratio = first_ > 0.0 ? compliance / first_ : 1.0;
@@ -75,8 +77,8 @@ class CollapseWatch {
 
  private:
   double failed_;
-  double first_ = 0.0;      ///< gradient per load of the first step of a stage that moved; 0 before it
-  double next_knot_ = 0.0;  ///< load factor at which the stage ends
+  double first_ = 0.0;  ///< gradient per load of the first step of a stage that moved; 0 before it
+  double next_knot_ = std::numeric_limits<double>::infinity();  ///< load factor at which the stage ends
   double ratio_ = 1.0;
   double beyond_ = 1.0;
 };

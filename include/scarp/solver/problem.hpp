@@ -77,7 +77,7 @@ class SCARP_EXPORT Problem {
   }
   /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it. Whether they
   /// could result is that of the next evaluation.
-  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) const {
+  Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
     if (attached_) static_cast<void>(attached_->add_forces(grid_->positions(), increment, forces));
     return forces;

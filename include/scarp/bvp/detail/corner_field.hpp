@@ -17,6 +17,15 @@
 
 namespace scarp::detail {
 
+/// Stresses [Pa] that pressures at points are, tension positive.
+template <int Dim>
+std::vector<VoigtStress<Dim>> stresses_of(Eigen::VectorXd const& pressures) {
+  std::vector<VoigtStress<Dim>> all(static_cast<std::size_t>(pressures.size()), VoigtStress<Dim>::Zero());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    all[k].template head<Dim>().setConstant(-pressures(static_cast<Eigen::Index>(k)));
+  return all;
+}
+
 /// \f$ \det(I + G) - 1 \f$ of a displacement gradient, to its own digits.
 template <int Dim>
 double volume_growth(Gradient<Dim> const& gradient) {
