@@ -198,6 +198,9 @@ with tempfile.TemporaryDirectory() as scratch:
     analysis.save(str(file))
     program = f"import scarp; own = scarp.load_analysis({str(file)!r}); run = own.to(1.5); print(own.reaction('top').tobytes().hex(), run.iterations)"
     told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
+    unknown = f"import pickle, sys; import scarp\nclass Own: pass\npickle.dump(Own(), open({str(file) + 'x'!r}, 'wb'))"
+    subprocess.run([sys.executable, "-c", unknown], env={**os.environ, "PYTHONPATH": str(module)}, check=True)
+    rejected(ValueError, "import the class of a material", lambda: scarp.load_analysis(str(file) + "x"))
     file.write_bytes(file.read_bytes()[:-20])
     rejected(ValueError, "own.analysis", lambda: scarp.load_analysis(file))
     file.write_bytes(pickle.dumps([1]))
@@ -419,6 +422,45 @@ print(analysis.load == more)
 """
 told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
 expect(told.stdout.split() == ["True"] * 3, f"Ctrl-C: {told.stdout} {told.stderr}")
+
+# A call that is rejected has changed nothing, what becomes of a caller's mesh neither.
+mesh = scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])
+model = scarp.Model(mesh, kinematics="small_strain")
+model.fix("bottom")
+rejected(ValueError, "no boundary 'tpo'", lambda: model.traction(["top", "tpo"], [0.0, -1e3]))
+rejected(ValueError, "no boundary 'tpo'", lambda: model.fix(["top", "tpo"], axis=1))
+model.traction(["top"], [0.0, -1e3])
+model.material("soil", One(2))
+analysis = scarp.Analysis(model)
+mesh.nodes *= 2.0
+inside = []
+run = analysis.to(1.0, observers=lambda own, step: inside.append(pickle.dumps(own)))
+expect(abs(analysis.reaction("bottom")[1] / 1e3 - 1.0) < 1e-6 and np.abs(analysis.displacements).max() < 1e-3, f"the base carries {analysis.reaction('bottom')} N")
+expect(np.array_equal(pickle.loads(inside[-1]).stresses, analysis.stresses), "an analysis that is saved by its observer is another one")
+rejected(ValueError, "read-only", lambda: analysis.mesh.nodes.__imul__(2.0))
+
+
+class Grows(All):
+    def start(self, position, depth):
+        return super().start(position, depth)[:2]
+
+    def respond_all(self, strains, stresses, variables):
+        return (*super().respond_all(strains, stresses, variables)[:2], np.ones((len(strains), 2)))
+
+
+rejected(ValueError, "variables of the shape", lambda: scarp.Analysis(footing(lambda rest: Grows(2, **rest))).to(1.0))
+rejected(ValueError, "leave one out", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=[(0, 0)], conductivity=1e-3, grain=1e-3))
+rejected(ValueError, "grain diameter", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=[(0, 0)], grain=-1e-3))
+
+
+def loaded_later(factor):
+    later = slope(factor)
+    later.traction("left", [0.0, 0.0], amplitude=[(1, 0), (2, 1)])
+    return later
+
+
+rejected(ValueError, "loads change at 2", lambda: scarp.reduce_strength(loaded_later))
+expect(isinstance(scarp.FieldSeries("output"), scarp.FieldSeries), "a series is of another type")
 
 # Wrong calls: each parameter of each function with each of these values ends in an exception in words, or in a use that the value allows.
 good_mesh = scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])
