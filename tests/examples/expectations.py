@@ -50,3 +50,13 @@ def example(name):
         print(f"skipped: no {name} (set SCARP_EXAMPLES and build the examples)")
         sys.exit(77)
     return program
+
+
+def python_module():
+    """The folder of the Python module, beside that of SCARP_EXAMPLES, for imports too; ends the script as skipped (77) where it is not built."""
+    folder = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve().parent / "python"
+    if not list(folder.glob("scarp/_points*")):
+        print("skipped: no Python module (set SCARP_EXAMPLES, install pybind11-dev and python3-dev and build python_points)")
+        sys.exit(77)
+    sys.path.insert(0, str(folder))
+    return folder

@@ -9,12 +9,10 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from expectations import expect, finish, leave_out
+from expectations import expect, finish, leave_out, python_module
 
-programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
-if not list((programs.parent / "python").glob("scarp/_points*")):
-    print("skipped: no Python module (set SCARP_EXAMPLES, install pybind11-dev and python3-dev and build python_points)")
-    sys.exit(77)
+module = python_module()
+programs = pathlib.Path(os.environ["SCARP_EXAMPLES"]).resolve()
 needed = {"fault_and_footing": "fault_rupture", "calibration": "rve_lab"}
 notebooks = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples/notebooks").glob("*.ipynb"))
 expect(len(notebooks) >= 4, f"{len(notebooks)} notebooks")
@@ -33,7 +31,7 @@ for notebook in notebooks:
         copied = pathlib.Path(scratch) / notebook.name
         copied.write_bytes(notebook.read_bytes())
         run = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output", "done.ipynb", copied], cwd=scratch,
-                             env={**os.environ, "PYTHONPATH": str(programs.parent / "python"), "SCARP_PROGRAMS": str(programs)}, capture_output=True, text=True, timeout=900)
+                             env={**os.environ, "PYTHONPATH": str(module), "SCARP_PROGRAMS": str(programs)}, capture_output=True, text=True, timeout=900)
         expect(run.returncode == 0, f"{notebook.name}: {run.stderr[-2000:]}")
         if run.returncode == 0:
             cells = json.loads((pathlib.Path(scratch) / "done.ipynb").read_text())["cells"]

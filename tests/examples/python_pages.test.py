@@ -10,12 +10,10 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from expectations import expect, finish, leave_out
+from expectations import expect, finish, leave_out, python_module
 
-programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
-if not list((programs.parent / "python").glob("scarp/_points*")):
-    print("skipped: no Python module (set SCARP_EXAMPLES, install pybind11-dev and python3-dev and build python_points)")
-    sys.exit(77)
+module = python_module()
+programs = pathlib.Path(os.environ["SCARP_EXAMPLES"]).resolve()
 root = pathlib.Path(__file__).resolve().parents[2]
 needed = {"python.md": ["fault_rupture", "rve_lab"], "tutorials/biaxial_test.md": ["rve_lab"], "tutorials/own_problem.md": []}
 # What a block has from the text around it.
@@ -31,6 +29,6 @@ for page, wanted in needed.items():
         shutil.copy(root / "examples/tutorials/excavation.msh", scratch)
         os.symlink(root / "examples", pathlib.Path(scratch) / "examples")
         run = subprocess.run([sys.executable, "-c", BEFORE.get(page, "") + "".join(blocks)], cwd=scratch, capture_output=True, text=True, timeout=900,
-                             env={**os.environ, "PYTHONPATH": str(programs.parent / "python"), "MPLBACKEND": "Agg", "SCARP_PROGRAMS": str(programs)})
+                             env={**os.environ, "PYTHONPATH": str(module), "MPLBACKEND": "Agg", "SCARP_PROGRAMS": str(programs)})
         expect(run.returncode == 0, f"{page}: {run.stderr[-1500:]}")
 finish()

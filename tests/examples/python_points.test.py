@@ -13,13 +13,9 @@ import tempfile
 import threading
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish, leave_out, rejected
+from expectations import expect, finish, leave_out, python_module, rejected
 
-module = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve().parent / "python"
-if not list(module.glob("scarp/_points*")):
-    print("skipped: no Python module (set SCARP_EXAMPLES, install pybind11-dev and python3-dev and build python_points)")
-    sys.exit(77)
-sys.path.insert(0, str(module))
+module = python_module()
 import numpy as np
 import scarp
 

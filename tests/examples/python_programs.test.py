@@ -14,14 +14,10 @@ import time
 import warnings
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import example, expect, finish, leave_out, rejected
+from expectations import example, expect, finish, leave_out, python_module, rejected
 
 FAULT, LAB = example("fault_rupture"), example("rve_lab")
-module = FAULT.parents[1] / "python"
-if not list(module.glob("scarp/_points*")):
-    print("skipped: no Python module (install pybind11-dev and python3-dev and build python_points)")
-    sys.exit(77)
-sys.path.insert(0, str(module))
+module = python_module()
 import numpy as np
 import scarp
 from scarp import program_options, programs
