@@ -87,11 +87,11 @@ void check_terzaghi() {
 
 /// Derivative of the water's forces at an increment that is not small, against central differences.
 template <class GridType>
-void check_stiffness(GridType grid) {
+void check_stiffness(GridType grid, std::optional<scarp::WaterAtRest> const& at_rest = {}) {
   constexpr int dim = GridType::dim;
   double const seconds = 40.0;
   PoreWater water(grid, KozenyCarman{.grain = 1e-4, .water = {.bulk_modulus = 1e8}},
-                  {.shear_modulus = shear, .clock = TimeFunction({{0.0, 0.0}, {1.0, seconds}})});
+                  {.shear_modulus = shear, .clock = TimeFunction({{0.0, 0.0}, {1.0, seconds}}), .at_rest = at_rest});
   water.at(1.0);
   int const size = grid.dof_count() + water.extra_dofs();
   auto const forces = [&](Eigen::VectorXd const& increment) {
@@ -151,6 +151,8 @@ TEST_CASE("the water's stiffness is the derivative of its forces") {
   check_stiffness(Ground<Quad8>(samples::distorted_block<Quad8>(2)));
   check_stiffness(Ground<Quad4, scarp::UpdatedLagrangian>(samples::distorted_block<Quad4>(2)));
   check_stiffness(Ground<scarp::Hex8, scarp::UpdatedLagrangian>(samples::distorted_block<scarp::Hex8>(2)));
+  check_stiffness(Ground<Quad8>(samples::distorted_block<Quad8>(2)),
+                  scarp::WaterAtRest{.level = 10.0, .cavitation = 0.0});
 }
 
 TEST_CASE("a sealed column keeps its volume, and stiff water takes the share of Skempton's B") {
@@ -289,6 +291,64 @@ TEST_CASE("the reaction is that of the committed pressures, whatever was asked i
   CHECK(analysis.reaction("bottom").y() == carried);
 }
 
+TEST_CASE("stretched water turns to vapour and back") {
+  double const stretch = 1e-3, suction = 100e3, bulk = 1e8, ratio = 0.6;
+  auto const grid = column_grid<Quad8>();
+  // Water so light that its lowest pressure is the same all over the column.
+  PoreWater const water(grid, ConstantPermeability{.conductivity = 1e-9, .water = {.bulk_modulus = bulk}},
+                        {.shear_modulus = shear,
+                         .void_ratio = ratio,
+                         .clock = TimeFunction::constant(0.0),
+                         .at_rest = scarp::WaterAtRest{.level = 2.0, .unit_weight = 1e-6}});
+  scarp::Model model(grid);
+  model.fix({"left", "right"}, 0);
+  model.fix({"bottom"}, 1);
+  model.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, poisson));
+  model.attach(water);
+  model.move({"top"}, 1, stretch, TimeFunction({{0.0, 0.0}, {1.0, 1.0}, {2.0, 0.0}}));
+  auto analysis = analysis_of(model);
+  double const storage = ratio / (1.0 + ratio) / bulk;
+  double const vapour = 1.0 / PoreWater<Ground<Quad8>, ConstantPermeability>::vapour_modulus;
+  for (double const factor : {0.01, 0.1, 1.0, 1.5, 1.98, 2.0}) {
+    REQUIRE(analysis.to(factor).verdict.acceptable());
+    // Volume of water, pores and vapour: e = -S u + (u_c - u)/K_v.
+    double const strain = stretch * (factor > 1.0 ? 2.0 - factor : factor) / height;
+    double const linear = -strain / storage;
+    double const expected = linear > -suction ? linear : -(strain + vapour * suction) / (storage + vapour);
+    for (double const pressure : pressures(analysis, water))
+      CHECK(std::abs(pressure - expected) < 1e-3 * suction);  // the porosity, which stores, grows by as much
+    double const share = std::max(-suction - expected, 0.0) * vapour;
+    CHECK(std::abs(analysis.problem().attached<std::remove_const_t<decltype(water)>>().vapour() -
+                   share * width * height) < 1e-9);
+  }
+}
+
+TEST_CASE("ground above the water table has no water") {
+  auto const grid = column_grid<Quad8>();
+  PoreWater water(grid, ConstantPermeability{.conductivity = 1e-6, .water = {.bulk_modulus = infinite}},
+                  {.shear_modulus = shear,
+                   .clock = TimeFunction({{0.0, 0.0}, {1.0, 1e9}}),
+                   .at_rest = scarp::WaterAtRest{.level = height / 2.0}});
+  auto analysis = analysis_of(column(grid, water));
+  REQUIRE(analysis.to(1.0).verdict.acceptable());
+  // Drained: the lower half has lost what it is compressed by.
+  double const strain = load / (lame + 2.0 * shear);
+  CHECK(analysis.problem().attached<decltype(water)>().expelled() ==
+        Approx(strain * width * height / 2.0).epsilon(1e-5));
+  CHECK(analysis.displacement("top", 1) == Approx(-strain * height).epsilon(1e-5));
+
+  PoreWater undrained(grid, ConstantPermeability{.conductivity = 1e-6, .water = {.bulk_modulus = infinite}},
+                      {.shear_modulus = shear,
+                       .clock = TimeFunction::constant(0.0),
+                       .at_rest = scarp::WaterAtRest{.level = height / 2.0}});
+  auto sealed = analysis_of(column(grid, undrained));
+  REQUIRE(sealed.to(1.0).verdict.acceptable());
+  auto const shown = pressures(sealed, undrained);
+  for (std::size_t node = 0; node < shown.size(); ++node)
+    if (grid.nodes()[node].y() >= height / 2.0) CHECK(shown[node] == 0.0);
+  CHECK(*std::ranges::max_element(shown) > 0.9 * load);
+}
+
 TEST_CASE("pore water without sense is refused") {
   auto const grid = column_grid<Quad8>();
   ConstantPermeability const clay{.conductivity = 1e-9};
@@ -300,8 +360,15 @@ TEST_CASE("pore water without sense is refused") {
   for (auto const& knots : {std::vector<std::pair<double, double>>{{0.0, -1.0}}, {{0.0, 0.0}, {1.0, 5.0}, {2.0, 4.0}}})
     CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .clock = TimeFunction(knots)}), "clock",
                   "do not fall");
+  CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .at_rest = scarp::WaterAtRest{.level = infinite}}),
+                "height of the water table");
+  CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .at_rest = scarp::WaterAtRest{.unit_weight = 0.0}}),
+                "unit weight of the water at rest");
+  CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .at_rest = scarp::WaterAtRest{.cavitation = 1e3}}),
+                "suction at which pore water cavitates");
   PoreWater water(grid, clay, settings);
   CHECK_REFUSED(water.drain({"roof"}), "roof");
+  CHECK_REFUSED(water.exclude("roof"), "roof");
   CHECK_REFUSED(water.region("rock", clay, 0.5), "rock");
   CHECK_REFUSED(water.at(-1.0), "goes from 0 s to -1 s", "load factor -1");
   water.drain({"top"});

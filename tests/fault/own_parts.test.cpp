@@ -46,7 +46,6 @@ struct StripLoad {
     };
     std::copy_if(surface.begin(), surface.end(), std::back_inserter(mesh.boundaries["store"]), below);
   }
-  static constexpr int extra_dofs() { return 0; }
   static constexpr double start() { return -1.0; }
   template <class Grid>
   void add_loads(Grid const& grid, double, scarp::LoadHistory& loads) const {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,34 +15,13 @@
 #include "scarp/bvp/detail/corner_field.hpp"
 #include "scarp/bvp/detail/pore_boundaries.hpp"
 #include "scarp/bvp/detail/pore_flow.hpp"
+#include "scarp/bvp/detail/vapour.hpp"
 #include "scarp/bvp/load_history.hpp"
+#include "scarp/bvp/pore_water_settings.hpp"
 #include "scarp/constitutive/hydraulic.hpp"
 #include "scarp/core/described.hpp"
 
 namespace scarp {
-
-/// What a `PoreWater` knows of ground and time.
-struct PoreWaterSettings {
-  /// Of the ground, in size [Pa]: it stabilises what an element cannot show, see PoreWater, and weighs the unknowns.
-  double shear_modulus = 0.0;
-  double void_ratio = 0.7;  ///< at the start, of regions without their own
-  TimeFunction clock{};     ///< time [s] over the load factor, not falling; the initial state is at 0 s
-
-  /// \throws InputError for a modulus that is not positive and times that are negative or fall
-  void validate() const {
-    require_positive("shear modulus of the ground with pore water", shear_modulus);
-    double last = 0.0;
-    double knot = clock.next_knot(-std::numeric_limits<double>::infinity());
-    for (; std::isfinite(knot); knot = clock.next_knot(knot)) {
-      if (!(clock(knot) >= last))
-        reject(
-            "the clock of the pore water shows {} s at the load factor {} after {} s (times begin at 0 s and do not "
-            "fall): order them",
-            clock(knot), knot, last);
-      last = clock(knot);
-    }
-  }
-};
 
 /// Water that fills the pores of a ground and flows through them (Biot 1941), as a field that is attached to its elements. Stresses
 /// of the materials are effective ones; the excess u of the pore pressure over that of water at rest [Pa], positive in compression,
@@ -58,6 +37,9 @@ struct PoreWaterSettings {
 /// In a step that is shorter than elements of size h can show (Vermeer and Verruijt 1981, with the modulus 2G), changes of pressure
 /// are smoothed as in one of that length:
 /// \f$ \max\left(\frac{h^2}{12 G} - \Delta t \frac{k}{\mu}, 0\right) \int \nabla q \cdot \nabla \Delta u\,dv \f$. Neither makes water.
+///
+/// With `at_rest`, u is 0 above the water table, and water cavitates: where its pressure p is below p_c, vapour takes the share
+/// (p_c - p)/K_v of the volume, lumped at the corners. K_v = `vapour_modulus`: p falls by 1 kPa for a tenth of the volume.
 /// \code
 /// DefaultGrid<Tri6> const grid(mesh);
 /// PoreWater water(grid, ConstantPermeability{.conductivity = 1e-8}, {.shear_modulus = 4e6});
@@ -75,6 +57,7 @@ class PoreWater {
  public:
   static constexpr int dim = GridType::dim;               ///< of the mesh
   static constexpr bool is_field = true;                  ///< see FieldAttachment
+  static constexpr double vapour_modulus = 1e4;           ///< [Pa], volume over the pressure that vapour lacks
   using Sides = std::initializer_list<std::string_view>;  ///< names of boundaries
 
   /// grid: that of the problem, before its first step. Boundaries are impermeable unless they are given.
@@ -84,6 +67,9 @@ class PoreWater {
   /// Another flow and void ratio for one region.
   /// \throws InputError for an unknown region, a flow outside of its range and a void ratio that is not positive
   void region(std::string_view name, Flow const& flow, double void_ratio) { flow_.set(field_, name, flow, void_ratio); }
+  /// Takes the water out of a region, such as a footing.
+  /// \throws InputError for an unknown region
+  void exclude(std::string_view region) { exclude(field_.elements_of(region)); }
   /// Lets water leave through boundaries against the pressure of water at rest.
   /// \throws InputError for an unknown boundary, and one with another pressure
   void drain(Sides sides) { prescribe(sides, 0.0); }
@@ -91,8 +77,7 @@ class PoreWater {
   /// \throws InputError for an unknown boundary, a pressure that is not finite, and one with another pressure
   void prescribe(Sides sides, double pressure, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
     require_finite("excess pore pressure of a boundary", pressure);
-    for (auto const side : sides)
-      boundaries_.prescribe(field_.corners_on(side), pressure, amplitude, [&](int k) { return field_.describe(k); });
+    for (auto const side : sides) prescribe(field_.corners_on(side), pressure, amplitude);
   }
   /// Lets water in through boundaries, volume per area and time [m/s] on the initial mesh, times an amplitude over the load factor;
   /// out where it is negative.
@@ -106,13 +91,10 @@ class PoreWater {
   /// Excess pressures [Pa] at all nodes, committed; in the middle of a side the mean of its corners.
   std::vector<double> pressures() const { return field_.at_nodes(pressure_); }
   std::vector<double> const& void_ratios() const { return flow_.void_ratios(); }  ///< of the points, committed
+  /// Committed volume of vapour [m3].
+  double vapour() const { return vapour_ ? vapour_->volumes(view(pressure_)).sum() : 0.0; }
   /// Volume [m3] that has left through boundaries of given pressure, committed.
-  double expelled() const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < left_.size(); ++k) sum -= boundaries_.is_given(k) ? left_[k] : 0.0;
-    return sum;
-  }
-
+  double expelled() const { return -boundaries_.sum_of_given(left_); }
   // What an attachment needs.
   /// Pressures over scale() [m], without the given ones; their balance is that of volumes times scale() [N].
   int extra_dofs() const { return detail::count(boundaries_.unknowns()); }
@@ -132,8 +114,8 @@ class PoreWater {
   void at(double load);
   double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
   std::string name() const { return "water"; }
-  /// Volumes that are not balanced, over those that strain, flow and the changes of pressure over the shear modulus displace in the
-  /// step, or a thousandth of the most of any step before, Euclidean norms.
+  /// Volumes that are not balanced, over those displaced in the step by strain, flow, vapour and the changes of pressure over the
+  /// shear modulus, or a thousandth of the most of any step before, Euclidean norms.
   double residual(Values const& unbalanced) const {
     double const volume = unbalanced.norm() / scale_;
     return volume == 0.0 ? 0.0 : volume / std::max(trial_.displaced, 1e-3 * most_displaced_);
@@ -151,7 +133,7 @@ class PoreWater {
   }
 
   void after_loading() { step_.is_known = false; }  ///< The next step computes its matrices anew.
-  SCARP_MEMBERS_EXCEPT((settings_, boundaries_, scale_, step_, trial_), field_, flow_, pressure_, left_, then_,
+  SCARP_MEMBERS_EXCEPT((settings_, boundaries_, vapour_, scale_, step_, trial_), field_, flow_, pressure_, left_, then_,
                        most_displaced_)
 
  private:
@@ -170,15 +152,19 @@ class PoreWater {
     double displaced = 0.0;
   };
 
-  static Eigen::Map<Values const> view(std::vector<double> const& values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-  }
+  static auto view(std::vector<double> const& values) { return detail::viewed(values); }
   void evaluate(Values const& increment);
+  void prescribe(std::vector<int> const& corners, double pressure,
+                 TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
+    boundaries_.prescribe(corners, pressure, amplitude, [&](int k) { return field_.describe(k); });
+  }
+  void exclude(std::vector<int> const& elements);
 
   PoreWaterSettings settings_;
   Field field_;
   detail::PoreFlow<Field, Flow> flow_;
   detail::PoreBoundaries boundaries_;
+  std::optional<detail::Vapour> vapour_;
   double scale_ = 0.0;
   std::vector<double> pressure_;  ///< of the corners, excess [Pa]
   std::vector<double> left_;      ///< by which the corners' shares have outgrown their water since the start [m3]
@@ -203,6 +189,18 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
     cells += 1.0;
   });
   scale_ = settings.shear_modulus * cells / size;
+  if (!settings.at_rest) return;
+  auto const dry = detail::above(field_, settings.at_rest->level);
+  prescribe(dry.corners, 0.0);
+  exclude(dry.elements);
+}
+
+template <class GridType, HydraulicProvider Flow>
+void PoreWater<GridType, Flow>::exclude(std::vector<int> const& elements) {
+  auto bare = field_.exclude(elements);
+  std::erase_if(bare, [&](int corner) { return boundaries_.is_given(detail::index(corner)); });
+  prescribe(bare, 0.0);
+  if (settings_.at_rest) vapour_.emplace(field_, *settings_.at_rest, vapour_modulus);
 }
 
 template <class GridType, HydraulicProvider Flow>
@@ -251,6 +249,10 @@ void PoreWater<GridType, Flow>::evaluate(Values const& increment) {
   trial_.left = view(left_) + field_.shapes().transpose() * grown + flown +
                 step_.change * (trial_.pressure - view(pressure_)) - step_.inflow;
   trial_.displaced = (field_.shapes().transpose() * step_.volumes.cwiseProduct(displaced)).norm() + flown.norm();
+  if (!vapour_) return;
+  Values const vapour = vapour_->volumes(trial_.pressure) - vapour_->volumes(view(pressure_));
+  trial_.left -= vapour;
+  trial_.displaced += vapour.norm();
 }
 
 template <class GridType, HydraulicProvider Flow>
@@ -261,14 +263,8 @@ void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>
   std::vector<int> number(pressure_.size(), -1);
   for (std::size_t k = 0; k < boundaries_.unknowns().size(); ++k)
     number[detail::index(boundaries_.unknowns()[k])] = first + static_cast<int>(k);
-  auto const add = [&entries](Matrix const& part, double factor, auto const& row_of, auto const& column_of) {
-    for (int column = 0; column < part.outerSize(); ++column) {
-      for (Matrix::InnerIterator entry(part, column); entry; ++entry) {
-        int const to = row_of(static_cast<int>(entry.row()));
-        int const from = column_of(column);
-        if (to >= 0 && from >= 0) entries.emplace_back(to, from, factor * entry.value());
-      }
-    }
+  auto const add = [&](Matrix const& part, double factor, auto const& row_of, auto const& column_of) {
+    detail::add_block(part, factor, row_of, column_of, entries);
   };
   auto const node = [](int dof) { return dof; };
   auto const water = [&](int corner) { return number[detail::index(corner)]; };
@@ -283,6 +279,10 @@ void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>
   add(divergence.transpose() * volumes.asDiagonal() * field_.shapes(), -scale_, node, water);
   add(field_.shapes().transpose() * grown.asDiagonal() * divergence, -scale_, water, node);
   add(step_.flow + step_.change, -scale_ * scale_, water, water);
+  for (int const corner : boundaries_.unknowns()) {
+    double const slope = vapour_ ? vapour_->slope(corner, trial_.pressure(corner)) : 0.0;
+    if (slope > 0.0) entries.emplace_back(water(corner), water(corner), -scale_ * scale_ * slope);
+  }
 }
 
 template <class GridType, HydraulicProvider Flow>

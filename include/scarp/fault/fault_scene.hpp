@@ -62,22 +62,37 @@ void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit
       middle->carried, middle->depth, surcharge, unit_weight, middle->weight);
 }
 
+template <class Structure, class Grid>
+auto attached(Structure const& structure, Grid const& grid, double throw_to) {
+  if constexpr (requires { structure.attached(grid, throw_to); }) {
+    return structure.attached(grid, throw_to);
+  } else {
+    return structure.attached(grid);
+  }
+}
+
+/// Of what is attached to a mesh.
+inline int extra_dofs(NoAttachment const&) { return 0; }
+template <class Attached>
+int extra_dofs(Attached const& attached) {
+  return attached.extra_dofs();
+}
+
 }  // namespace scarp::detail
 
 namespace scarp {
 
-/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is
-/// attached, in
-/// stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves.
+/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is attached, in stages of
+/// the load factor: from start() to 0 it is placed, from 0 on the fault moves. attached(grid), or attached(grid, throw_to): what is
+/// attached may follow the throw [m]; then end(throw_to), where there is one, is the load factor up to which the bedrock rests after it.
 template <class Structure, class Grid>
 concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh, Grid const& grid,
                                   LoadHistory& loads) {
   { structure.edges() } -> std::same_as<std::vector<double>>;
   structure.put_on(mesh);
-  { structure.extra_dofs() } -> std::same_as<int>;
   { structure.start() } -> std::same_as<double>;
   structure.add_loads(grid, 4e3, loads);
-  structure.attached(grid);
+  detail::attached(structure, grid, 1.0);
 };
 
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
@@ -139,10 +154,25 @@ struct SCARP_EXPORT FaultScene {
     return stage.run(solver, problem, structure.start(), 0.0, observer);
   }
 
-  /// Last stage: the bedrock moves.
+  /// Third stage: the bedrock moves.
   template <class ProblemType, class Observer>
   RunReport rupture(ProblemType& problem, Observer& observer) const {
     return stepping.run(solver, problem, 0.0, throw_to, observer);
+  }
+
+  /// Load factor at the end of all stages.
+  double end() const {
+    if constexpr (requires { structure.end(throw_to); }) return structure.end(throw_to);
+    return throw_to;
+  }
+
+  /// Last stage, where end() is beyond the throw: the bedrock rests, and what follows its motion goes on, such as water that drains.
+  template <class ProblemType, class Observer>
+  RunReport rest(ProblemType& problem, Observer& observer) const {
+    LoadStepping stage = stepping;
+    stage.first = stage.largest = end() - throw_to;  // steps end at knots
+    stage.smallest = 1e-6 * stage.first;
+    return stage.run(solver, problem, throw_to, end(), observer);
   }
 
  private:
@@ -162,7 +192,7 @@ struct SCARP_EXPORT FaultScene {
 template <CheckedMaterial Soil, class Structure, class Solver, Ground GroundType, BedrockMotion Motion, class GridType>
 Mesh<typename GroundType::Element> FaultScene<Soil, Structure, Solver, GroundType, Motion, GridType>::mesh() const {
   static_assert(StandsOnGround<Structure, Grid>,
-                "scarp: a structure needs edges(), put_on(), extra_dofs(), start(), add_loads() and attached()");
+                "scarp: a structure needs edges(), put_on(), start(), add_loads() and attached()");
   static_assert(std::same_as<typename GroundType::Element, typename Grid::ElementType>,
                 "the grid is of the ground's element");
   auto made = ground.mesh(structure.edges());
@@ -179,16 +209,18 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   require_positive("throw", throw_to);
   Grid grid(mesh());
   detail::require_carried(soil, soil_sites(grid), unit_weight, surcharge);
-  Constraints constraints = bedrock_constraints(grid.mesh(), fault, structure.extra_dofs(), TimeFunction::after(0.0));
+  auto attached = detail::attached(structure, grid, throw_to);
+  int const extra_dofs = detail::extra_dofs(attached);
+  auto const moved = end() > throw_to ? TimeFunction({{0.0, 0.0}, {throw_to, throw_to}}) : TimeFunction::after(0.0);
+  Constraints constraints = bedrock_constraints(grid.mesh(), fault, extra_dofs, moved);
   int const soil_region = region_number(grid.mesh(), "soil");
   Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
   Eigen::VectorXd dead =
       grid.body_force([&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
   dead += grid.traction("surface", surcharge * down);
-  dead.conservativeResizeLike(Eigen::VectorXd::Zero(grid.dof_count() + structure.extra_dofs()));
   LoadHistory loads(std::move(dead));
   structure.add_loads(grid, surcharge, loads);
-  auto attached = structure.attached(grid);
+  loads.add_dofs(grid.dof_count() + extra_dofs - static_cast<int>(loads.size()));
   return make_problem(std::move(grid), ground.surface_level(), structure.regions(Region{"soil", soil}),
                       std::move(constraints), std::move(loads), executor, std::move(attached));
 }

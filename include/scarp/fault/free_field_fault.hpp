@@ -16,7 +16,6 @@ struct NoStructure {
     auto& surface = mesh.boundaries["surface"];
     surface.insert(surface.end(), base.mapped().begin(), base.mapped().end());
   }
-  static constexpr int extra_dofs() { return 0; }  ///< Nothing adds degrees of freedom.
   /// Load factor before the fault moves; no stage places a structure.
   static constexpr double start() { return 0.0; }
   template <class Grid>

@@ -24,14 +24,13 @@ struct FrictionalFooting {
   void put_on(Mesh<Element>& mesh) const {
     mark_footing_base(mesh, footing.centre, footing.width);
   }
-  /// Motion of a rigid body: two displacements [m] and a rotation [rad].
-  static constexpr int extra_dofs() { return RigidBody::extra_dofs; }
   static constexpr double start() { return -1.0; }  ///< Load factor before the footing is placed.
 
   /// Weight [N] of the footing, which replaces the surcharge [Pa] below it, as the load factor grows from -1 to 0.
   template <class Grid>
   void add_loads(Grid const& grid, double surcharge, LoadHistory& loads) const {
     add_uncovered_surcharge(grid, surcharge, start(), loads);
+    loads.add_dofs(RigidBody::extra_dofs);
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(loads.size());
     weight(grid.dof_count() + 1) = -footing.bearing * footing.width * grid.thickness();
     loads.add(std::move(weight), TimeFunction::ramp(start(), 0.0));

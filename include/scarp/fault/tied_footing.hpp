@@ -28,7 +28,6 @@ struct TiedFooting {
     double const facets = static_cast<double>(boundary(mesh, "footing_base").size());
     add_footing_block(mesh, height, footing.width / facets);
   }
-  static constexpr int extra_dofs() { return 0; }   ///< The block has only nodes of the mesh.
   static constexpr double start() { return -1.0; }  ///< Load factor before the footing is placed.
 
   /// Weight [N] of the block, which replaces the surcharge [Pa] below it, as the load factor grows from -1 to 0.

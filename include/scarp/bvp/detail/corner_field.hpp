@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -34,6 +35,23 @@ double volume_growth(Gradient<Dim> const& gradient) {
   return trace + second + (Dim == 3 ? gradient.determinant() : 0.0);
 }
 
+inline Eigen::Map<Eigen::VectorXd const> viewed(std::vector<double> const& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+/// Adds a block to a matrix. row_of, column_of: number in the matrix of one in the block, below 0 for none
+template <class Rows, class Columns>
+void add_block(Eigen::SparseMatrix<double> const& block, double factor, Rows const& row_of, Columns const& column_of,
+               std::vector<Eigen::Triplet<double>>& entries) {
+  for (int column = 0; column < block.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(block, column); entry; ++entry) {
+      int const to = row_of(static_cast<int>(entry.row()));
+      int const from = column_of(column);
+      if (to >= 0 && from >= 0) entries.emplace_back(to, from, factor * entry.value());
+    }
+  }
+}
+
 /// A scalar field with values at the corners of a grid's elements, seen at the grid's points.
 /// \tparam GridType a `Discretisation`
 template <class GridType>
@@ -57,7 +75,8 @@ class CornerField {
     double squared_size = 0.0;  ///< of an edge [m2]
   };
 
-  explicit CornerField(GridType grid) : grid_(std::move(grid)), of_node_(index(grid_.node_count()), -1) {
+  explicit CornerField(GridType grid)
+      : grid_(std::move(grid)), of_node_(index(grid_.node_count()), -1), has_field_(grid_.mesh().elements.size(), 1) {
     for (auto const& element : grid_.mesh().elements)
       for (std::size_t a = 0; a < Corner::nodes; ++a) of_node_[index(element[a])] = 0;
     for (int node = 0; node < grid_.node_count(); ++node) {
@@ -79,6 +98,26 @@ class CornerField {
     trace_.setFromTriplets(ones.begin(), ones.end());
   }
 
+  /// Numbers of a region's elements.
+  std::vector<int> elements_of(std::string_view region) const {
+    int const number = region_number(grid_, region);
+    std::vector<int> elements;
+    for (int element = 0; element < detail::count(grid_.mesh().elements); ++element)
+      if (region_of(element) == number) elements.push_back(element);
+    return elements;
+  }
+  /// Takes the field out of elements.
+  /// \return corners that no element is left to
+  std::vector<int> exclude(std::vector<int> const& elements) {
+    for (int const element : elements) has_field_[index(element)] = 0;
+    shapes_.prune(
+        [&](auto point, auto, double) { return has_field_[index(element_of(static_cast<int>(point)))] != 0; });
+    std::vector<int> left;
+    for (int corner = 0; corner < count(); ++corner)
+      if (shapes_.col(corner).nonZeros() == 0) left.push_back(corner);
+    return left;
+  }
+
   GridType const& grid() const { return grid_; }
   int count() const { return detail::count(nodes_); }  ///< of corners
   Matrix const& shapes() const { return shapes_; }     ///< values of corners to those of points
@@ -88,16 +127,25 @@ class CornerField {
   /// Change of each point's volume, over the volume, for a small further displacement from the end of an increment [m].
   Matrix divergence(Eigen::VectorXd const& increment) const { return trace_ * grid_.strain_operator(increment); }
 
-  /// visit(Cell) for all elements.
+  Vector<dim> const& place(int corner) const {
+    return grid_.nodes()[index(nodes_[index(corner)])];
+  }  ///< at the start [m]
+  /// Corners of an element.
+  auto corners_of(int element) const {
+    std::array<int, Corner::nodes> corners{};
+    for (std::size_t a = 0; a < corners.size(); ++a)
+      corners[a] = of_node_[index(grid_.mesh().elements[index(element)][a])];
+    return corners;
+  }
+
+  /// visit(Cell) for all elements with the field.
   template <class Visit>
   void for_each_cell(Visit const& visit) const {
     for (std::size_t e = 0; e < grid_.mesh().elements.size(); ++e) {
-      Cell cell{.number = static_cast<int>(e)};
+      if (has_field_[e] == 0) continue;
+      Cell cell{.number = static_cast<int>(e), .corners = corners_of(static_cast<int>(e))};
       std::array<int, Corner::nodes> nodes{};
-      for (std::size_t a = 0; a < Corner::nodes; ++a) {
-        nodes[a] = grid_.mesh().elements[e][a];
-        cell.corners[a] = of_node_[index(nodes[a])];
-      }
+      std::copy_n(grid_.mesh().elements[e].begin(), nodes.size(), nodes.begin());
       auto const rows =
           scarp::corners<Corner, dim>(nodes, GridType::follows_motion ? grid_.positions() : grid_.nodes());
       ShapeValues<Corner> mean = ShapeValues<Corner>::Zero();
@@ -158,7 +206,7 @@ class CornerField {
   }
 
   void commit(Eigen::VectorXd const& increment) { grid_.commit(increment); }
-  SCARP_MEMBERS_EXCEPT((of_node_, nodes_, shapes_, trace_), grid_)
+  SCARP_MEMBERS_EXCEPT((of_node_, nodes_, has_field_, shapes_, trace_), grid_)
 
  private:
   /// Of the field at a node of an element.
@@ -174,8 +222,9 @@ class CornerField {
   }
 
   GridType grid_;
-  std::vector<int> of_node_;  ///< number of each node's corner, -1 for others
-  std::vector<int> nodes_;    ///< of the corners
+  std::vector<int> of_node_;     ///< number of each node's corner, -1 for others
+  std::vector<int> nodes_;       ///< of the corners
+  std::vector<char> has_field_;  ///< whether each element has
   Matrix shapes_;
   Matrix trace_;  ///< strains of all points to their changes of volume
 };

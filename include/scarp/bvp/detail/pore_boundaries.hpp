@@ -41,6 +41,12 @@ class PoreBoundaries {
 
   std::vector<int> const& unknowns() const { return unknowns_; }  ///< Corners whose pressure is not given.
   bool is_given(std::size_t corner) const { return given_[corner].has_value(); }
+  /// Over the corners whose pressure is given.
+  double sum_of_given(std::vector<double> const& values) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) sum += is_given(k) ? values[k] : 0.0;
+    return sum;
+  }
   /// Whether water flows through boundaries of a ground whose pressure nothing sets.
   bool lacks_outlet() const { return !inflows_.empty() && unknowns_.size() == given_.size(); }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/bvp/detail/corner_field.hpp"
 #include "scarp/bvp/grid.hpp"
 #include "scarp/constitutive/hydraulic.hpp"
 #include "scarp/core/described.hpp"
@@ -73,8 +74,7 @@ class PoreFlow {
           "for undrained steps",
           duration);
     auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
-    FlowStep step{assembled(field, flow), assembled(field, change),
-                  Eigen::Map<Eigen::VectorXd const>(volumes.data(), static_cast<Eigen::Index>(volumes.size()))};
+    FlowStep step{assembled(field, flow), assembled(field, change), viewed(volumes)};
     Eigen::VectorXd storage = step.volumes;
     for (int point = 0; point < grid.point_count(); ++point)
       storage(point) *= flow_in(field, Field::element_of(point)).storage(void_ratio_[index(point)]);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "scarp/bvp/detail/corner_field.hpp"
+#include "scarp/bvp/pore_water_settings.hpp"
+#include "scarp/core/index.hpp"
+
+namespace scarp::detail {
+
+/// What of a field is at a water table or above it.
+struct Above {
+  std::vector<int> corners;
+  std::vector<int> elements;  ///< with all corners
+};
+
+/// level: height of the water table [m]
+template <class Field>
+Above above(Field const& field, double level) {
+  auto const& nodes = field.grid().nodes();
+  auto const up = [](auto const& place) { return place(Field::dim - 1); };
+  auto const [lowest, highest] = std::ranges::minmax(nodes, {}, up);
+  double const same = 1e-9 * (up(highest) - up(lowest));
+  auto const is_above = [&](int corner) { return up(field.place(corner)) >= level - same; };
+  Above found;
+  for (int corner = 0; corner < field.count(); ++corner)
+    if (is_above(corner)) found.corners.push_back(corner);
+  for (int element = 0; element < count(field.grid().mesh().elements); ++element)
+    if (std::ranges::all_of(field.corners_of(element), is_above)) found.elements.push_back(element);
+  return found;
+}
+
+/// Vapour at the corners of a field of excess pressures u: where u falls below the lowest that water has, it takes a volume that is
+/// proportional to what u lacks.
+class Vapour {
+ public:
+  using Values = Eigen::VectorXd;
+
+  /// modulus [Pa]: volume over what the pressure lacks
+  template <class Field>
+  Vapour(Field const& field, WaterAtRest const& rest, double modulus) : lowest_(field.count()) {
+    for (int corner = 0; corner < field.count(); ++corner)
+      lowest_(corner) = rest.cavitation - rest.pressure(field.place(corner)(Field::dim - 1));
+    auto const volumes = field.grid().volumes(Values::Zero(field.grid().dof_count()));
+    slopes_ = field.shapes().transpose() * viewed(volumes) / modulus;
+  }
+
+  Values volumes(Values const& pressures) const { return slopes_.cwiseProduct((lowest_ - pressures).cwiseMax(0.0)); }
+  /// By which a corner's volume grows as its pressure falls [m3/Pa].
+  double slope(int corner, double pressure) const { return pressure < lowest_(corner) ? slopes_(corner) : 0.0; }
+
+ private:
+  Values lowest_;  ///< [Pa]
+  Values slopes_;  ///< [m3/Pa]
+};
+
+}  // namespace scarp::detail

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "scarp/bvp/load_history.hpp"
+#include "scarp/core/error.hpp"
+
+namespace scarp {
+
+/// Water at rest in the pores, which excess pressures count from.
+struct WaterAtRest {
+  double level = 0.0;           ///< height of the water table along the last axis [m], also above the ground
+  double unit_weight = 9.81e3;  ///< [N/m3]
+  double cavitation = -100e3;   ///< pressure over that of the air at which water turns to vapour [Pa]
+
+  /// \throws InputError for a height that is not finite, a unit weight that is not positive and a positive pressure
+  void validate() const {
+    require_finite("height of the water table", level);
+    require_positive("unit weight of the water at rest", unit_weight);
+    require_not_negative("suction at which pore water cavitates (the pressure's opposite)", -cavitation);
+  }
+  /// Pressure over that of the air [Pa] at a height [m].
+  double pressure(double height) const { return unit_weight * std::max(level - height, 0.0); }
+};
+
+/// What a `PoreWater` knows of ground and time.
+struct PoreWaterSettings {
+  /// Of the ground, in size [Pa]: it stabilises what an element cannot show, see PoreWater, and weighs the unknowns.
+  double shear_modulus = 0.0;
+  double void_ratio = 0.7;               ///< at the start, of regions without their own
+  TimeFunction clock{};                  ///< time [s] over the load factor, not falling; the initial state is at 0 s
+  std::optional<WaterAtRest> at_rest{};  ///< without it all ground has water, of any pressure
+
+  /// \throws InputError for a modulus that is not positive, times that are negative or fall, and wrong water at rest
+  void validate() const {
+    require_positive("shear modulus of the ground with pore water", shear_modulus);
+    if (at_rest) at_rest->validate();
+    double last = 0.0;
+    double knot = clock.next_knot(-std::numeric_limits<double>::infinity());
+    for (; std::isfinite(knot); knot = clock.next_knot(knot)) {
+      if (!(clock(knot) >= last))
+        reject(
+            "the clock of the pore water shows {} s at the load factor {} after {} s (times begin at 0 s and do not "
+            "fall): order them",
+            clock(knot), knot, last);
+      last = clock(knot);
+    }
+  }
+};
+
+}  // namespace scarp

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/pore_water.hpp"
+#include "scarp/fault/fault_scene.hpp"
+
+namespace scarp {
+
+/// Times of a rupture of saturated ground. Before the fault moves, and while a structure is placed, all excess pressures drain.
+struct RuptureTimes {
+  double rupture = 1.0;   ///< that the whole throw takes [s]
+  double drainage = 0.0;  ///< after the throw, while the bedrock rests [s]
+
+  static constexpr double before = 1e9;      ///< that the ground has to drain at rest, and again below a structure [s]
+  static constexpr double per_decade = 6.0;  ///< steps of drainage, from a tenth of the rupture's time on
+
+  /// \throws InputError for a rupture that takes no time, and a negative time of drainage
+  void validate() const {
+    require_positive("time of the rupture", rupture);
+    require_not_negative("time of drainage", drainage);
+  }
+
+  /// Time [s] when the fault begins to move. start: load factor of the ground at rest
+  static double begin(double start) { return start < 0.0 ? 2.0 * before : before; }
+  /// Load factor at the end of the drainage, in which it grows by a thousandth of the throw [m].
+  double end(double throw_to) const { return drainage > 0.0 ? 1.001 * throw_to : throw_to; }
+  /// Time [s] over the load factor, the throw [m].
+  TimeFunction clock(double start, double throw_to) const {
+    std::vector<std::pair<double, double>> knots{{start, before}};
+    if (start < 0.0) knots.emplace_back(0.0, begin(start));
+    double const ruptured = begin(start) + rupture;
+    knots.emplace_back(throw_to, ruptured);
+    double const first = std::min(rupture / 10.0, drainage);
+    double const steps = drainage > 0.0 ? std::floor(per_decade * std::log10(drainage / first)) + 1.0 : 0.0;
+    for (double step = 1.0; step <= steps; step += 1.0) {
+      double const passed = drainage * std::pow(first / drainage, steps > 1.0 ? (steps - step) / (steps - 1.0) : 0.0);
+      knots.emplace_back(throw_to + step / steps * (end(throw_to) - throw_to), ruptured + passed);
+    }
+    return TimeFunction(std::move(knots));
+  }
+};
+
+/// Ground whose pores are full of water, below its table, and what stands on it. The scene's unit weight and its soil's stresses are
+/// effective ones: the buoyant unit weight, from `buoyant_unit_weight`, where the table is at the surface or above it.
+/// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
+template <class Structure, HydraulicProvider Flow = KozenyCarman>
+struct Saturated : Structure {
+  Flow flow{};
+  double shear_modulus = 0.0;  ///< of the ground in size [Pa], see PoreWaterSettings
+  double void_ratio = 0.7;     ///< at the start
+  WaterAtRest at_rest{};       ///< its level and lowest pressure
+  RuptureTimes times{};
+
+  /// throw_to [m]
+  /// \throws InputError for properties outside of their range
+  template <class Grid>
+  PoreWater<Grid, Flow> attached(Grid const& grid, double throw_to) const {
+    static_assert(std::same_as<decltype(Structure::attached(grid)), NoAttachment>,
+                  "scarp: a structure that is attached to the mesh cannot stand on saturated ground yet");
+    PoreWater<Grid, Flow> water(grid, flow,
+                                {.shear_modulus = shear_modulus,
+                                 .void_ratio = void_ratio,
+                                 .clock = detail::validated(times).clock(this->start(), throw_to),
+                                 .at_rest = at_rest});
+    for (auto const& region : grid.regions())
+      if (region != "soil") water.exclude(region);
+    return water;
+  }
+  /// Load factor at the end, when the water has drained. throw_to [m]
+  double end(double throw_to) const { return times.end(throw_to); }
+};
+
+/// Weight [N/m3] of dry ground in water, less the lift of its grains: \f$ \gamma_d - \gamma_w / (1 + e) \f$.
+inline double buoyant_unit_weight(double dry, double void_ratio, double water = 9.81e3) {
+  return dry - water / (1.0 + void_ratio);
+}
+
+}  // namespace scarp
