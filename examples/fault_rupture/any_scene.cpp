@@ -3,6 +3,7 @@
 #include "../shared/print.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "device/chosen_device.hpp"
@@ -82,6 +83,7 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   scene.pressure_floor = soil.pressure_floor;
   scene.write_packing = std::move(soil.write_packing);
   scene.stepping.max_displacement_gradient = soil.max_displacement_gradient;
+  if constexpr (requires { scene.structure.shear_modulus; }) scene.structure.shear_modulus = soil.shear_modulus;
   return scene;
 }
 
@@ -92,18 +94,34 @@ SceneSize size_of_any(Choice const& choice) {
   return size_of(choice, scene, scene.soil_sites());
 }
 
+/// make: takes the type of the chosen scene
+template <class Make>
+auto with_scene(Choice const& choice, Make const& make) {
+  if (choice.scene == Case::free) return make(std::type_identity<Scene<FreeField>>());
+#ifdef FAULT_RUPTURE_WATER
+  if (choice.base != Base::tied)
+    scarp::reject(
+        "--footing frictional is given with --water-table (only a tied footing stands on wet ground): leave one out");
+#else
+  if (choice.water_table)
+    scarp::reject(
+        "--water-table is given to a program without water: start it by ./examples/run, which builds "
+        "fault_rupture_water");
+  if (choice.base != Base::tied) return make(std::type_identity<Scene<RigidFooting>>());
+#endif
+  return make(std::type_identity<Scene<TiedFooting>>());
+}
+
 }  // namespace
 
 SceneSize size_of_scene(Choice const& choice) {
-  if (choice.scene == Case::free) return size_of_any<Scene<scarp::NoStructure>>(choice);
-  if (choice.base == Base::tied) return size_of_any<Scene<scarp::TiedFooting>>(choice);
-  return size_of_any<Scene<RigidFooting>>(choice);
+  return with_scene(choice, [&](auto scene) { return size_of_any<typename decltype(scene)::type>(choice); });
 }
 
 AnyScene make_scene(Choice const& choice, int processes, bool speaks) {
-  if (choice.scene == Case::free) return make_any<Scene<scarp::NoStructure>>(choice, processes, speaks);
-  if (choice.base == Base::tied) return make_any<Scene<scarp::TiedFooting>>(choice, processes, speaks);
-  return make_any<Scene<RigidFooting>>(choice, processes, speaks);
+  return with_scene(choice, [&](auto scene) {
+    return AnyScene(make_any<typename decltype(scene)::type>(choice, processes, speaks));
+  });
 }
 
 }  // namespace fault_rupture

@@ -19,7 +19,15 @@ struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structu
   PackingWriter write_packing{};  ///< nothing for soils without packings
 };
 
-using AnyScene = std::variant<Scene<scarp::NoStructure>, Scene<scarp::TiedFooting>, Scene<RigidFooting>>;
+#ifdef FAULT_RUPTURE_WATER
+using FreeField = scarp::Saturated<scarp::NoStructure>;
+using TiedFooting = scarp::Saturated<scarp::TiedFooting>;
+using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>>;
+#else
+using FreeField = scarp::NoStructure;
+using TiedFooting = scarp::TiedFooting;
+using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>, Scene<RigidFooting>>;
+#endif
 
 /// processes: that share the packings out among them; reports on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError

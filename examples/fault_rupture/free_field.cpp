@@ -2,6 +2,6 @@
 #include "run_scene.hpp"
 
 namespace fault_rupture {
-template int run(Choice const&, Scene<scarp::NoStructure> const&, Start const&);
-template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::NoStructure> const&);
+template int run(Choice const&, Scene<FreeField> const&, Start const&);
+template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<FreeField> const&);
 }  // namespace fault_rupture

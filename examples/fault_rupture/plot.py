@@ -14,6 +14,7 @@ import ground_figures
 import numpy as np
 import packing_figures
 import scarp_figures as figures
+import water_figures
 from field_figures import colour_limit, deviatoric_percent, draw_cells, draw_settlement, read_steps, status_note
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
@@ -247,6 +248,8 @@ def figures_of(folder):
         chosen |= {"probe_packings": grain_figures.packings, "probe_roses": grain_figures.roses}
     if (folder / "footing.csv").exists():
         chosen |= {"footing": footing_figures.footing, "base_pressure": footing_figures.base_pressure}
+    if (folder / "water.csv").exists():
+        chosen |= {"excess_pressure": water_figures.excess_pressure, "water": water_figures.water}
     return chosen
 
 

@@ -50,6 +50,8 @@ FIGURES = {
     "probe_roses": ("Directions at the probes", "Contact normals, the same weighted with their forces, and long axes of the grains."),
     "footing": ("Footing", "Settlement, tilt and pressures over the throw."),
     "base_pressure": ("Pressure on the base", "Contact pressure along the footing's base at a few throws."),
+    "excess_pressure": ("Excess pore pressure", "At half of the throw, at its end and at the end of the run; suction is red."),
+    "water": ("Pore water over time", "Least and largest excess pressure, volumes of water and vapour, and the surface, over time."),
     "packing": ("A packing at the start", "One of the packings as it was prepared, with force chains."),
     "convergence": ("Convergence", "Residuals of all iterations, and DEM steps, over the throw."),
     "effort": ("Effort", "What the load steps cost, and which points are slow or unwell."),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <concepts>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -26,6 +27,7 @@
 #include "summary.hpp"
 #include "summary_table.hpp"
 #include "team.hpp"
+#include "water_log.hpp"
 
 namespace fault_rupture {
 
@@ -53,7 +55,7 @@ inline void remove_older_results(std::filesystem::path const& folder, bool goes_
   remove_older_summaries(folder);
   if (goes_on) return;
   for (auto const* name :
-       {"fields.pvd", "footing.csv", "footing_base.csv", "packing_grains.csv", "packing_contacts.csv"})
+       {"fields.pvd", "footing.csv", "footing_base.csv", "water.csv", "packing_grains.csv", "packing_contacts.csv"})
     std::filesystem::remove(folder / name);
   for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
     std::string const name = file.path().filename().string();
@@ -100,14 +102,14 @@ struct NoFooting : scarp::NeverStops {
   void attempted(Problem const&, scarp::StepReport const&) {}
 };
 
-inline NoFooting footing_log(std::filesystem::path const&, scarp::NoStructure const&, double, int, double,
-                             scarp::CsvStart) {
-  return {};
-}
 template <class Structure>
-FootingLog<Structure> footing_log(std::filesystem::path const& folder, Structure const& structure, double to,
-                                  int profiles, double load_unit, scarp::CsvStart start) {
-  return {folder, structure, to, profiles, load_unit, start};
+auto footing_log(std::filesystem::path const& folder, Structure const& structure, double to, int profiles,
+                 double load_unit, scarp::CsvStart start) {
+  if constexpr (std::derived_from<Structure, scarp::NoStructure>) {
+    return NoFooting{};
+  } else {
+    return FootingLog<Structure>{folder, structure, to, profiles, load_unit, start};
+  }
 }
 
 /// Looks at the probe in the band beside points all over the ground.
@@ -177,6 +179,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     return scarp::PackingSeries(folder, probe, point, to, {0.0, 0.25, 0.5, 1.0}, measure);
   };
   auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
+  auto water = water_log(folder, scene, depth, start);
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnRootRank observers(executor, [&] {
     return scarp::Observers(
@@ -186,7 +189,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), measure, start),
         packings_of("A", at(choice.probe_a_x, choice.probe_a_y)),
         packings_of("B", at(choice.probe_b_x, choice.probe_b_y)),
-        footing_log(folder, scene.structure, to, profiles, depth, start),
+        footing_log(folder, scene.structure, to, profiles, depth, start), std::ref(water),
         scarp::ConvergenceLog(folder / "convergence.csv", measure, start), scarp::Progress(to, measure, begun.name),
         scarp::DistortionWarning<2>([&](auto const& worst) {
           examples::print(
@@ -214,9 +217,10 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     return placed;
   });
   stages.stage([&] { return scene.rupture(problem, stages); });
+  if (scene.end() > to) stages.stage([&] { return scene.rest(problem, stages); });
   auto const& report = stages.report();
   bool const sound = !stages.stopped();  // all could be written
-  if (!report.verdict.acceptable() && sound) observers.ended(problem, report.load);
+  if ((!report.verdict.acceptable() || scene.end() > to) && sound) observers.ended(problem, report.load);
   double const reaction = scarp::generalised_reaction(problem) - notes.reaction_at_rest;
   on_root_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
@@ -226,6 +230,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       examples::print(stderr, "{}{}\n", begun.name, stages.trouble());
     }
     auto json = summary(choice, scene, problem, notes, reaction, report);
+    water.add_to(json);
     json["run"] = examples::json_of(begun.folder->record());
     auto const written = [&](SensitivityResults const& sensitivity) {
       auto parts = budget.parts();
@@ -282,11 +287,13 @@ std::vector<scarp::Vector<2>> strained_by(Choice const& choice, SceneType const&
 }
 
 // Each structure's scene is compiled in a source of its own.
-extern template int run(Choice const&, Scene<scarp::NoStructure> const&, Start const&);
-extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::NoStructure> const&);
-extern template int run(Choice const&, Scene<scarp::TiedFooting> const&, Start const&);
-extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::TiedFooting> const&);
+extern template int run(Choice const&, Scene<FreeField> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<FreeField> const&);
+extern template int run(Choice const&, Scene<TiedFooting> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<TiedFooting> const&);
+#ifndef FAULT_RUPTURE_WATER
 extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<RigidFooting> const&);
+#endif
 
 }  // namespace fault_rupture

@@ -32,8 +32,22 @@ inline void declare_site(CLI::App& app, Choice& choice) {
       ->check(place());
   app.add_option("--width", choice.width, "of the ground [m]; where it is not given 3 depths")
       ->check(number_from(0.0, false, 1e5));
-  app.add_option("--unit-weight", choice.unit_weight, "of the ground [N/m3]")->check(number_from(1e3, true, 1e5));
+  app.add_option("--unit-weight", choice.unit_weight, "of the ground, dry [N/m3]")->check(number_from(1e3, true, 1e5));
   app.add_option("--surcharge", choice.surcharge, "on the ground [Pa]")->check(number_from(0.0, true, 1e7));
+  auto* const table =
+      app.add_option("--water-table", choice.water_table,
+                     "depth below the surface [m], 0 or less (above the ground); below it water fills the pores; "
+                     "without it the ground is dry")
+          ->check(number_from(-1e4, true, 0.0));
+  auto const of_water = [&](char const* option, double& value, char const* what, CLI::Validator const& range) {
+    app.add_option(option, value, what)->check(range)->needs(table);
+  };
+  of_water("--conductivity", choice.conductivity,
+           "hydraulic, of wet ground before the rupture [m/s]; it follows the pores", number_from(0.0, false, 10.0));
+  of_water("--void-ratio", choice.void_ratio, "of wet ground before the rupture", number_from(0.01, true, 10.0));
+  of_water("--slip-rate", choice.slip_rate, "of a fault below wet ground [m/s]", number_from(1e-15, true, 100.0));
+  of_water("--drain", choice.drain, "time after the rupture in which the bedrock rests and water drains [s]",
+           number_from(0.0, true, 1e12));
 }
 
 /// Places that follow from ground and fault where they are not given, as the reference study has them relative to the tip and to the
@@ -112,7 +126,7 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
 
 /// Ground that its own weight squeezes to nothing, and a footing that it hardly feels, have no balance.
 inline void require_balance(Choice const& choice) {
-  double const carried = choice.surcharge + choice.unit_weight * choice.depth;
+  double const carried = choice.surcharge + choice.effective_unit_weight() * choice.depth;
   if (choice.soil != Soil::dem && choice.young_modulus < carried)
     scarp::reject(
         "--young-modulus is {} Pa; expected from {:.4g} Pa on, what the ground carries at bedrock: give it in pascals",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -152,7 +153,8 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   auto const& grid = problem.discretisation();
   auto const& ground = rest.ground.of(grid.nodes());
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
-  auto const offset = scarp::offset_at(scene.fault, std::max(run.load, 0.0));
+  double const thrown = std::clamp(run.load, 0.0, scene.throw_to);
+  auto const offset = scarp::offset_at(scene.fault, thrown);
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
   double const from_side = 0.2 * choice.depth;  // where the far field is read: the sides themselves are prescribed
   nlohmann::ordered_json json;
@@ -172,7 +174,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
   }
-  json["throw_over_depth"] = std::max(run.load, 0.0) / scene.ground.depth();
+  json["throw_over_depth"] = thrown / scene.ground.depth();
   json["k0"] = rest.k0;
   json["k0_min"] = rest.k0_min;
   json["k0_max"] = rest.k0_max;

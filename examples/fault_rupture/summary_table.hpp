@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -80,6 +81,24 @@ inline std::string table(nlohmann::ordered_json const& json) {
         fmt::format("{:.0f}-{:.0f}", number("contact_pressure_min") / 1e3, number("contact_pressure_max") / 1e3),
         "mean: the bearing pressure");
     row("imbalance of the footing over its weight", fmt::format("{:.1e}", number("force_imbalance")), "0");
+  }
+  if (json.contains("water")) {
+    for (auto const& [when, water] : json["water"].items()) {
+      auto const at = [&, &water = water](char const* key) {
+        return water[key].is_number() ? water[key].template get<double>() : std::nan("");
+      };
+      std::string name = when;
+      std::ranges::replace(name, '_', ' ');
+      row(fmt::format("{}, {:.4g} s: excess pressure [kPa]", name, at("time")),
+          fmt::format("{:.0f}, {:.0f}", at("excess_pressure_min") / 1e3, at("excess_pressure_max") / 1e3),
+          fmt::format("largest over the overburden, r_u: {:.2f}", at("pressure_ratio_max")));
+      row("  water that has left, vapour [m3 per m]", fmt::format("{:.3f}, {:.3f}", at("expelled"), at("vapour")), "");
+      row("  surface_x50 [m], steepest slope [degrees]",
+          fmt::format("{:.2f}, {:.1f}", at("surface_x50"), degrees(std::atan(at("surface_slope_max")))), "");
+      if (std::isfinite(at("tilt")))
+        row("  settlement [m] and tilt [degrees] of the footing",
+            fmt::format("{:.3f}, {:.3f}", at("settlement"), degrees(at("tilt"))), "");
+    }
   }
   row("largest residual of an accepted step", fmt::format("{:.2e}", number("max_accepted_residual")),
       of_study("not reported"));

@@ -2,6 +2,6 @@
 #include "run_scene.hpp"
 
 namespace fault_rupture {
-template int run(Choice const&, Scene<scarp::TiedFooting> const&, Start const&);
-template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<scarp::TiedFooting> const&);
+template int run(Choice const&, Scene<TiedFooting> const&, Start const&);
+template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<TiedFooting> const&);
 }  // namespace fault_rupture

@@ -305,20 +305,21 @@ void bind(py::module_& module, std::string const& suffix) {
            [=](Own& self, Sides const& sides, double pressure, Knots const& knots) {
              each(self, sides, [&](auto side) { self.now().surcharge({side}, pressure, course(knots)); });
            })
-      .def(
-          "water",
-          [](Own& self, double shear_modulus, double conductivity, double grain, double void_ratio, double bulk_modulus,
-             Knots const& clock, Sides const& drained, py::dict const& pressures, py::dict const& inflows) {
-            attach_water(self.now(), {.shear_modulus = shear_modulus,
-                                      .conductivity = conductivity,
-                                      .grain = grain,
-                                      .void_ratio = void_ratio,
-                                      .bulk_modulus = bulk_modulus,
-                                      .clock = course(clock).value_or(scarp::TimeFunction()),
-                                      .drained = drained,
-                                      .pressures = water_boundaries(pressures),
-                                      .inflows = water_boundaries(inflows)});
-          })
+      .def("water",
+           [](Own& self, double shear_modulus, double conductivity, double grain, double void_ratio,
+              double bulk_modulus, std::optional<double> table, Knots const& clock, Sides const& drained,
+              py::dict const& pressures, py::dict const& inflows) {
+             attach_water(self.now(), {.shear_modulus = shear_modulus,
+                                       .conductivity = conductivity,
+                                       .grain = grain,
+                                       .void_ratio = void_ratio,
+                                       .bulk_modulus = bulk_modulus,
+                                       .table = table,
+                                       .clock = course(clock).value_or(scarp::TimeFunction()),
+                                       .drained = drained,
+                                       .pressures = water_boundaries(pressures),
+                                       .inflows = water_boundaries(inflows)});
+           })
       .def("set_surface_level", [](Own& self, double height) { self.now().set_surface_level(height); })
       .def("geostatic",
            [](Own& self, double k0, std::string const& region) {

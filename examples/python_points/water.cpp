@@ -31,8 +31,10 @@ bool attached_to(scarp::Model<GridType::dim>& model, WaterOptions const& options
         options.conductivity, options.grain);
   scarp::Water const water{.bulk_modulus = options.bulk_modulus};
   EitherFlow const flow{options.grain != 0.0, {options.conductivity, water}, {.grain = options.grain, .water = water}};
-  scarp::PoreWater attached(
-      *grid, flow, {.shear_modulus = options.shear_modulus, .void_ratio = options.void_ratio, .clock = options.clock});
+  scarp::PoreWaterSettings settings{
+      .shear_modulus = options.shear_modulus, .void_ratio = options.void_ratio, .clock = options.clock};
+  if (options.table) settings.at_rest = scarp::WaterAtRest{.level = *options.table};
+  scarp::PoreWater attached(*grid, flow, settings);
   for (auto const& side : options.drained) attached.drain({side});
   for (auto const& [side, value, amplitude] : options.pressures) attached.prescribe({side}, value, amplitude);
   for (auto const& [side, value, amplitude] : options.inflows) attached.inflow({side}, value, amplitude);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,12 +19,13 @@ struct WaterBoundary {
 
 /// Pore water in numbers, see PoreWater.
 struct WaterOptions {
-  double shear_modulus = 0.0;   ///< of the ground [Pa]
-  double conductivity = 0.0;    ///< [m/s], of water that has no grain
-  double grain = 0.0;           ///< diameter [m] of Kozeny and Carman's permeability; 0: the conductivity counts
-  double void_ratio = 0.7;      ///< at the start
-  double bulk_modulus = 2.2e9;  ///< of the water [Pa]
-  scarp::TimeFunction clock{};  ///< [s] over the load factor
+  double shear_modulus = 0.0;     ///< of the ground [Pa]
+  double conductivity = 0.0;      ///< [m/s], of water that has no grain
+  double grain = 0.0;             ///< diameter [m] of Kozeny and Carman's permeability; 0: the conductivity counts
+  double void_ratio = 0.7;        ///< at the start
+  double bulk_modulus = 2.2e9;    ///< of the water [Pa]
+  std::optional<double> table{};  ///< height of the water table [m], for water that cavitates
+  scarp::TimeFunction clock{};    ///< [s] over the load factor
   std::vector<std::string> drained{};
   std::vector<WaterBoundary> pressures{};
   std::vector<WaterBoundary> inflows{};

@@ -65,16 +65,19 @@ def draw_cells(axes, grid, values, norm, edge=0.15):
     return cells
 
 
+def triangles_of(grid):
+    """Corners of triangles that the cells are cut into, shape (n, 3)."""
+    return np.vstack([grid.cells[:, [0, k, k + 1]] for k in range(1, grid.cells.shape[1] - 1)])
+
+
 def draw_settlement(fig, axes, grid, path, alpha=1.0):
     """Filled contours of the vertical displacement; its own triangulation of each element."""
     settlement = -figures.field(grid.at_nodes, "displacement", path)[:, 1]
-    corners = grid.cells.shape[1]
-    triangles = np.vstack([grid.cells[:, [0, k, k + 1]] for k in range(1, corners - 1)])
     high = max(settlement.max(), 1e-6)
     levels = MaxNLocator(10).tick_values(settlement.min() if settlement.min() < -0.02 * high else 0.0, high)
     levels = levels[np.abs(levels) > 1e-6 * high] if levels[0] < 0.0 else levels  # zero is where nothing happens
     settlement = np.clip(settlement, levels[0], levels[-1])
-    mesh = Triangulation(*grid.points.T, triangles)
+    mesh = Triangulation(*grid.points.T, triangles_of(grid))
     farthest = np.abs(levels).max()
     colours = {"cmap": "Blues"} if levels[0] >= 0.0 else {"cmap": "RdBu", "norm": Normalize(-farthest, farthest)}  # heave is red
     filled = axes.tricontourf(mesh, settlement, levels=levels, alpha=alpha, **colours)

@@ -125,7 +125,7 @@ class Model:
 
     def water(self, shear_modulus: float, clock: Amplitude, conductivity: float = 0.0, grain: float = 0.0, void_ratio: float = 0.7,
               bulk_modulus: float = 2.2e9, drained: Sides = (), pressures: Optional[Mapping[str, Any]] = None,
-              inflows: Optional[Mapping[str, Any]] = None) -> None:
+              inflows: Optional[Mapping[str, Any]] = None, table: Optional[float] = None) -> None:
         """Pore water that fills the pores of all elements and flows through them. Stresses of materials are effective ones; weight is that of which
         water carries nothing: below the water table give the buoyant one. Other boundaries than those that are named are impermeable.
 
@@ -147,6 +147,8 @@ class Model:
             Boundaries of zero excess pressure.
         pressures, inflows : dict
             By boundary: an excess pressure [Pa] or an inflow [m/s], or a tuple of it and its amplitude.
+        table : float
+            Height [m] of the water table: the ground above it has no water, and below it water cavitates at -100 kPa over the air's pressure.
 
         Examples
         --------
@@ -162,7 +164,8 @@ class Model:
         >>> bool(abs(analysis.pore_pressures[analysis.boundary_nodes("bottom")] / 10.0 - 1.0).max() < 1e-6)
         True
         """
-        self._do("water", float(shear_modulus), float(conductivity), float(grain), float(void_ratio), float(bulk_modulus), _knots(clock), _names(drained),
+        self._do("water", float(shear_modulus), float(conductivity), float(grain), float(void_ratio), float(bulk_modulus),
+                 None if table is None else float(table), _knots(clock), _names(drained),
                  _water_boundaries(pressures), _water_boundaries(inflows))
 
     def set_surface_level(self, height: float) -> None:

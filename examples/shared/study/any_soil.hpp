@@ -22,6 +22,7 @@ struct AnySoil {
   double max_displacement_gradient = 0.0;  ///< of a load step
   double pressure_floor = 0.0;             ///< [Pa], below which a point's balance counts less
   PackingWriter write_packing{};           ///< nothing for soils without packings
+  double shear_modulus = 0.0;              ///< of a soil without packings, about that of one with [Pa]
 };
 
 struct Sand;

@@ -9,6 +9,7 @@
 
 #include "../device/device.hpp"
 #include "../sand/sand.hpp"
+#include "scarp/constitutive/hydraulic.hpp"
 #include "scarp/tensor/tensor.hpp"
 
 namespace fault_rupture {
@@ -37,7 +38,12 @@ struct Choice {
   double width = 75.0;         ///< [m]
   double unit_weight = fault_rupture::unit_weight;  ///< [N/m3]
   double surcharge = fault_rupture::surcharge;      ///< [Pa]
-  double size = 2.5;         ///< [m], cell width in the band, or size of the elements in the strip
+  std::optional<double> water_table;  ///< depth below the surface [m], negative above it; without, the ground is dry
+  double conductivity = 1e-4;         ///< hydraulic, before the rupture [m/s]
+  double void_ratio = 0.7;            ///< of the ground that water fills, before the rupture
+  double slip_rate = 1.0;             ///< of the fault [m/s]
+  double drain = 0.0;                 ///< time after the rupture in which water drains [s]
+  double size = 2.5;                  ///< [m], cell width in the band, or size of the elements in the strip
   double strip_width = 0.0;  ///< [m], twice the margin around `strained` with small elements; 0 for a uniform mesh
   int elements = 0;          ///< wanted number of elements instead of `size`; 0 for none
   std::optional<MeshPattern> pattern;  ///< crossed, or quads where elements are quadrilaterals
@@ -145,6 +151,13 @@ struct Choice {
     visit("probe-a-y", self.probe_a_y);
     visit("probe-b-x", self.probe_b_x);
     visit("probe-b-y", self.probe_b_y);
+    if (self.water_table) {
+      visit("water-table", self.water_table);
+      visit("conductivity", self.conductivity);
+      visit("void-ratio", self.void_ratio);
+      visit("slip-rate", self.slip_rate);
+      visit("drain", self.drain);
+    }
     double strained = 0.0;  // stands for all of the places: another pilot run has another mesh
     for (auto const& place : self.strained) strained += place.x() + 2.0 * place.y();
     visit("strained", strained);
@@ -152,6 +165,10 @@ struct Choice {
 
   /// Of lengths that follow the depth where they are not given.
   double scale() const { return depth / study_depth; }
+  /// That the grains carry [N/m3]: in water less its lift.
+  double effective_unit_weight() const {
+    return water_table ? scarp::Water{}.buoyant_weight(unit_weight, void_ratio) : unit_weight;
+  }
   /// Below it the balance of a point counts as if it carried so much [Pa].
   double least_pressure() const { return std::max(surcharge, fault_rupture::surcharge) / 2.0; }
 };

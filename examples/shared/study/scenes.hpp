@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
+
 #include "chosen_ground.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/free_field_fault.hpp"
 #include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/tied_footing.hpp"
+#ifdef FAULT_RUPTURE_WATER
+#include "scarp/fault/saturated.hpp"
+#endif
 
 namespace fault_rupture {
 
@@ -27,6 +32,16 @@ inline void set(RigidFooting& structure, Choice const& choice) {
   structure.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = choice.base_friction};
 }
 
+#ifdef FAULT_RUPTURE_WATER
+/// The level of the water and the times follow when ground and fault are known.
+template <class Structure>
+void set(scarp::Saturated<Structure>& structure, Choice const& choice) {
+  set(static_cast<Structure&>(structure), choice);
+  structure.void_ratio = choice.void_ratio;
+  structure.flow = scarp::KozenyCarman::of_conductivity(choice.conductivity, choice.void_ratio);
+}
+#endif
+
 /// Ground, fault, loads and structure; soil and solver are left.
 /// \throws scarp::InputError for choices that do not make a scene
 template <class SceneType>
@@ -34,10 +49,15 @@ SceneType without_soil(Choice const& choice) {
   SceneType scene;
   scene.ground = ground_of<Element>(choice);
   scene.fault = fault_of(choice);
-  scene.unit_weight = choice.unit_weight;
+  scene.unit_weight = choice.effective_unit_weight();
   scene.surcharge = choice.surcharge;
   scene.throw_to = choice.throw_over_depth * scene.ground.depth();
   set(scene.structure, choice);
+  if constexpr (requires { scene.structure.at_rest; }) {
+    scene.structure.at_rest.level = scene.ground.surface_level() - choice.water_table.value_or(0.0);
+    scene.structure.times = {.rupture = scene.throw_to / std::sin(scene.fault.dip) / choice.slip_rate,
+                             .drainage = choice.drain};
+  }
   return scene;
 }
 

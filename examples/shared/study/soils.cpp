@@ -19,7 +19,11 @@ namespace {
 
 /// Level ground, by default at the reference study's K0 of about 0.4.
 scarp::GeostaticStress<2> ground_at_rest(Choice const& choice) {
-  return {.surcharge = choice.surcharge, .unit_weight = choice.unit_weight, .k0 = choice.k0};
+  return {.surcharge = choice.surcharge, .unit_weight = choice.effective_unit_weight(), .k0 = choice.k0};
+}
+
+scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
+  return scarp::IsotropicElasticity::from_young_poisson(choice.young_modulus, 0.25);
 }
 
 /// What all soils' scenes share.
@@ -33,11 +37,8 @@ AnySoil solved(Choice const& choice, Soil const& soil, scarp::QuasiNewton<> solv
           .tolerance = tolerance,
           .max_displacement_gradient =
               choice.max_displacement_gradient.value_or(Soil::max_displacement_gradient(choice.quick)),
-          .pressure_floor = choice.least_pressure() / 2.0};
-}
-
-scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
-  return scarp::IsotropicElasticity::from_young_poisson(choice.young_modulus, 0.25);
+          .pressure_floor = choice.least_pressure() / 2.0,
+          .shear_modulus = soil_elasticity(choice).shear_modulus};
 }
 
 /// \throws scarp::InputError
@@ -68,8 +69,8 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
     auto const k = static_cast<std::size_t>(number);
     if (depths[k].empty()) return;
     auto const seed = k > 0 ? scarp::family_seed(sand.seed, k) : sand.seed;
-    columns.sources[k] =
-        examples::level_ground<Grains>(sand, law, seed, choice.unit_weight, choice.surcharge, std::move(depths[k]));
+    columns.sources[k] = examples::level_ground<Grains>(sand, law, seed, choice.effective_unit_weight(),
+                                                        choice.surcharge, std::move(depths[k]));
     if (images == 1) return;
     columns.sources[count + k] = columns.sources[k];
     for (auto& packing : columns.sources[count + k].packings) packing = scarp::mirrored(std::move(packing));
@@ -98,7 +99,7 @@ bool repeats_study(Choice const& choice) {
   };
   if (!same(&Choice::depth, &Choice::left, &Choice::width, &Choice::unit_weight, &Choice::surcharge, &Choice::dip,
             &Choice::tip) ||
-      choice.reverse)
+      choice.reverse || choice.water_table)
     return false;
   if (choice.study) return true;
   if (choice.soil == Soil::dem) return material_of(choice) == material_of(study);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <limits>
 
@@ -31,6 +32,8 @@ struct Water {
     require_positive("unit weight of the pore water", unit_weight);
     require_positive("viscosity of the pore water", viscosity);
   }
+  /// Weight of dry ground [N/m3] less the lift of its grains, \f$ \gamma_d - \gamma_w/(1+e) \f$.
+  double buoyant_weight(double dry, double void_ratio) const { return dry - unit_weight / (1.0 + void_ratio); }
   /// \f$ n/K_w,\; n = e/(1+e) \f$ [1/Pa]
   double storage(double void_ratio) const { return void_ratio / (1.0 + void_ratio) / bulk_modulus; }
 };
@@ -57,6 +60,16 @@ struct KozenyCarman {
   double grain = 0.0;     ///< d [m], diameter of equal spheres with the surface of the grains
   double factor = 180.0;  ///< of spheres
   Water water{};          ///< in the pores
+
+  /// Grains that pass so much water [m/s] at a void ratio.
+  /// \throws InputError for numbers that are not positive
+  static KozenyCarman of_conductivity(double conductivity, double void_ratio, Water const& water = {}) {
+    require_positive("hydraulic conductivity", conductivity);
+    require_positive("void ratio of the ground with pore water", void_ratio);
+    KozenyCarman flow{.grain = 1.0, .water = water};
+    flow.grain = std::sqrt(conductivity / water.unit_weight / flow.mobility(void_ratio));
+    return flow;
+  }
 
   /// \throws InputError for a diameter or factor that is not positive and wrong numbers of the water
   void validate() const {

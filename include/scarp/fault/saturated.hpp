@@ -47,7 +47,7 @@ struct RuptureTimes {
 };
 
 /// Ground whose pores are full of water, below its table, and what stands on it. The scene's unit weight and its soil's stresses are
-/// effective ones: the buoyant unit weight, from `buoyant_unit_weight`, where the table is at the surface or above it.
+/// effective ones: those of ground in water, see Water::buoyant_weight, where the table is at the surface or above it.
 /// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {
@@ -75,10 +75,5 @@ struct Saturated : Structure {
   /// Load factor at the end, when the water has drained. throw_to [m]
   double end(double throw_to) const { return times.end(throw_to); }
 };
-
-/// Weight [N/m3] of dry ground in water, less the lift of its grains: \f$ \gamma_d - \gamma_w / (1 + e) \f$.
-inline double buoyant_unit_weight(double dry, double void_ratio, double water = 9.81e3) {
-  return dry - water / (1.0 + void_ratio);
-}
 
 }  // namespace scarp

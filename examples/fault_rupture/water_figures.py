@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Figures of pore water in the ground of a fault: excess pressures, and what they do over time."""
+
+import numpy as np
+import scarp_figures as figures
+from field_figures import outline, read_plane, triangles_of
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.tri import Triangulation
+from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
+
+
+def excess_pressure(folder):
+    """Excess pore pressure over the ground at half of the throw, at its end, and at the end of the run."""
+    throw = figures.read_csv(folder / "water.csv", ["throw_over_depth"])["throw_over_depth"][-1]
+    series = [step for step in figures.read_pvd(folder / "fields.pvd") if step[0] > 0.0]
+    places = [np.argmin([abs(time - wanted) for time, _ in series]) for wanted in (throw / 2, throw, 2 * throw)]
+    grids = [(series[k], read_plane(series[k][1])) for k in np.unique(places)]
+    values = [1e-3 * figures.field(grid.at_nodes, "excess_pore_pressure", path) for (_, path), grid in grids]
+    fig, panels = plt.subplots(len(grids), 1, figsize=(6.4, 0.6 + 2.0 * len(grids)), sharex=True, squeeze=False)
+    for axes, ((time, _), grid), pressure in zip(panels[:, 0], grids, values):
+        most = max(np.abs(pressure).max(), 1e-3)
+        mesh = Triangulation(*grid.points.T, triangles_of(grid))
+        filled = axes.tricontourf(mesh, pressure, levels=np.linspace(-most, most, 15), cmap="RdBu", norm=Normalize(-most, most))
+        axes.add_collection(LineCollection(outline(grid), colors=GREY, linewidths=0.6))
+        fig.colorbar(filled, ax=axes, label="[kPa]", aspect=12)
+        rested = " and drainage" if time > throw * (1.0 + 1e-6) else ""
+        axes.set(ylabel="y [m]", aspect="equal",
+                 title=f"Excess pore pressure, h/H = {min(time, throw):.3g}{rested}: {pressure.min():.3g} to {pressure.max():.3g} kPa")
+        axes.grid(False)
+    panels[-1, 0].set_xlabel("x [m]")
+    return fig
+
+
+def water(folder):
+    """Excess pressures, volumes of water and what the surface does, over the time since the fault began to move."""
+    table = figures.read_csv(folder / "water.csv", ["time", "throw_over_depth", "excess_pressure_min", "excess_pressure_max", "expelled",
+                                                    "vapour", "surface_x50", "settlement"])
+    moving = table["time"] > 0.0
+    time = table["time"][moving]
+    curves = {name: values[moving] for name, values in table.items()}
+    end = time[np.argmax(curves["throw_over_depth"])]
+    fig, (pressure, volume, surface) = plt.subplots(3, 1, figsize=(5.6, 6.6), sharex=True)
+    pressure.plot(time, 1e-3 * curves["excess_pressure_max"], color=BLUE, label="largest")
+    pressure.plot(time, 1e-3 * curves["excess_pressure_min"], color=VERMILION, label="least")
+    pressure.set(ylabel="excess pore pressure [kPa]", xscale="log")
+    volume.plot(time, curves["expelled"], color=BLUE, label="water that has left")
+    volume.plot(time, curves["vapour"], color=VERMILION, label="vapour")
+    volume.set(ylabel="volume [m³ per m]")
+    surface.plot(time, curves["surface_x50"], color=GREEN, label="x of half of the throw [m]")
+    if np.isfinite(curves["settlement"]).any():
+        surface.plot(time, curves["settlement"], color=BLUE, label="settlement of the footing [m]")
+    surface.set(xlabel="time since the fault began to move [s]", ylabel="[m]")
+    for axes in (pressure, volume, surface):
+        axes.axvline(end, color=BLACK, linestyle=":", linewidth=0.9, label="end of the throw")
+        axes.legend(fontsize=7)
+    return fig

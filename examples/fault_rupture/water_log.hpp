@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "any_scene.hpp"
+#include "scarp/core/described.hpp"
+#include "scarp/fault/ground_at_rest.hpp"
+#include "scarp/fault/rupture_survey.hpp"
+#include "scarp/io/csv.hpp"
+#include "scarp/observe/observers.hpp"
+
+namespace fault_rupture {
+
+/// Nothing to log.
+struct NoWater : scarp::NeverStops {
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const&) {}
+  static void add_to(nlohmann::ordered_json&) {}
+};
+template <class SceneType>
+NoWater water_log(std::filesystem::path const&, SceneType const&, double, scarp::CsvStart) {
+  return {};
+}
+
+#ifdef FAULT_RUPTURE_WATER
+/// Pore water over time, from when the fault begins to move: a row of water.csv for every accepted step.
+template <class SceneType>
+class WaterLog : public scarp::NeverStops {
+ public:
+  /// unit: of loads in tables [m]
+  WaterLog(std::filesystem::path const& folder, SceneType const& scene, double unit, scarp::CsvStart start)
+      : scene_(scene), unit_(unit), table_(folder / "water.csv", {names.begin(), names.end()}, start) {}
+
+  template <class Problem>
+  void attempted(Problem const& problem, scarp::StepReport const& report) {
+    rest_.attempted(problem, report);
+    if (!report.verdict.acceptable() || report.load < 0.0) return;
+    rows_.push_back(row_of(problem, report.load));
+    std::apply([&](auto... values) { table_.add(values...); }, rows_.back());
+  }
+
+  /// What the water did by the end of the throw, a minute later and at the end.
+  void add_to(nlohmann::ordered_json& json) const {
+    double const thrown = scene_.structure.times.rupture;
+    for (auto const& [when, time] : {std::pair("after_the_throw", thrown), std::pair("after_a_minute", thrown + 60.0),
+                                     std::pair("at_the_end", std::numeric_limits<double>::infinity())}) {
+      auto const end = std::ranges::find_if(rows_, [&](Row const& row) { return row[1] > time * (1.0 + 1e-6); });
+      if (end == rows_.begin()) continue;
+      for (std::size_t k = 0; k < names.size(); ++k) json["water"][when][names[k]] = (*std::prev(end))[k];
+    }
+  }
+
+  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_)
+
+ private:
+  static constexpr std::array names{"throw_over_depth",
+                                    "time",
+                                    "excess_pressure_min",
+                                    "excess_pressure_max",
+                                    "pressure_ratio_max",
+                                    "expelled",
+                                    "vapour",
+                                    "surface_x50",
+                                    "surface_slope_max",
+                                    "settlement",
+                                    "tilt"};
+  using Row = std::array<double, names.size()>;
+
+  template <class Problem>
+  Row row_of(Problem const& problem, double load) const {
+    auto const& grid = problem.discretisation();
+    auto const& water = problem.template attached<decltype(scene_.structure.attached(grid, scene_.throw_to))>();
+    auto const pressures = water.pressures();
+    auto const [least, most] = std::ranges::minmax(pressures);
+    double ratio = 0.0;
+    for (std::size_t node = 0; node < pressures.size(); ++node) {
+      double const carried =
+          scene_.surcharge + scene_.unit_weight * (scene_.ground.surface_level() - grid.nodes()[node].y());
+      if (carried > 0.0) ratio = std::max(ratio, pressures[node] / carried);
+    }
+    auto const offset = scarp::offset_at(scene_.fault, std::min(load, scene_.throw_to));
+    auto const survey = scarp::rupture_survey(grid.mesh(), rest_.of(grid.nodes()), grid.positions(), offset);
+    double settlement = std::numeric_limits<double>::quiet_NaN();
+    double tilt = settlement;
+    if constexpr (requires { scene_.structure.motion(problem, load); }) {
+      auto const motion = scene_.structure.motion(problem, load);
+      settlement = motion.settlement;
+      tilt = motion.tilt;
+    }
+    return {std::min(load, scene_.throw_to) / unit_,
+            water.time() - scene_.structure.times.begin(scene_.structure.start()),
+            least,
+            most,
+            ratio,
+            water.expelled(),
+            water.vapour(),
+            survey.surface.surface_x50,
+            survey.surface.surface_slope_max,
+            settlement,
+            tilt};
+  }
+
+  SceneType const& scene_;
+  double unit_;
+  scarp::CsvLog table_;
+  scarp::GroundAtRest<2> rest_;
+  std::vector<Row> rows_;
+};
+
+template <class Structure>
+auto water_log(std::filesystem::path const& folder, Scene<scarp::Saturated<Structure>> const& scene, double unit,
+               scarp::CsvStart start) {
+  return WaterLog<Scene<scarp::Saturated<Structure>>>(folder, scene, unit, start);
+}
+#endif
+
+}  // namespace fault_rupture

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/fault/saturated.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/fault/free_field_fault.hpp"
+#include "scarp/fault/tied_footing.hpp"
+#include "scarp/mesh/facets.hpp"
+#include "support/approx.hpp"
+#include "support/refusals.hpp"
+
+namespace {
+
+using scarp::NoObserver;
+using scarp::NoStructure;
+using scarp::RuptureTimes;
+using scarp::Saturated;
+using scarp::TiedFooting;
+using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
+
+constexpr double depth = 25.0, void_ratio = 0.7, young = 25e6;
+
+/// Sand on a coarse mesh; throw_to [m]
+template <class Structure>
+scarp::FaultScene<Soil, Structure> scene(double throw_to) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  scarp::FaultScene<Soil, Structure> made;
+  made.ground.layer.size = 5.0;
+  made.unit_weight = scarp::Water{}.buoyant_weight(15.68e3, void_ratio);
+  made.soil = {scarp::IsotropicElasticity::from_young_poisson(young, 0.25),
+               {{.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree}},
+               {made.surcharge, made.unit_weight, 0.4}};
+  made.solver.tolerance = 1e-6;
+  made.throw_to = throw_to;
+  return made;
+}
+
+template <class Structure>
+auto wet(double throw_to, RuptureTimes const& times) {
+  auto made = scene<Saturated<Structure>>(throw_to);
+  made.structure.flow = scarp::KozenyCarman::of_conductivity(1e-4, void_ratio);
+  made.structure.void_ratio = void_ratio;
+  made.structure.shear_modulus = young / 2.5;
+  made.structure.at_rest.level = depth;
+  made.structure.times = times;
+  return made;
+}
+
+/// A problem, and how its stages ended.
+template <class SceneType>
+struct Run {
+  scarp::SerialExecutor serial{};
+  SceneType scene;
+  decltype(std::declval<SceneType>().problem(serial)) problem;
+
+  explicit Run(SceneType made) : scene(std::move(made)), problem(scene.problem(serial)) {
+    NoObserver none;
+    REQUIRE(scene.settle(problem, none).verdict.acceptable());
+    REQUIRE(scene.place(problem, none).verdict.acceptable());
+    REQUIRE(scene.rupture(problem, none).verdict.acceptable());
+  }
+  void rest() {
+    NoObserver none;
+    REQUIRE(scene.rest(problem, none).verdict.acceptable());
+  }
+  auto const& water() const {
+    using Water = decltype(scene.structure.attached(problem.discretisation(), 1.0));
+    return problem.template attached<Water>();
+  }
+  double area() const {
+    return scarp::region_area(problem.discretisation().mesh(), "soil", problem.grid().positions());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a rupture slow enough for the water is that of the dry ground with its buoyant weight") {
+  Run const dry(scene<NoStructure>(0.1));
+  Run const slow(wet<NoStructure>(0.1, {.rupture = 1e12}));
+  auto const moved = [](auto const& run) { return run.problem.grid().positions(); };
+  auto const one = moved(dry);
+  auto const other = moved(slow);
+  double largest = 0.0;
+  for (std::size_t node = 0; node < one.size(); ++node) largest = std::max(largest, (one[node] - other[node]).norm());
+  CHECK(largest < 1e-4 * 0.1);  // steps differ; measured
+  CHECK(slow.water().vapour() == 0.0);
+  // Grains keep their volume, and so does water: what the ground has grown by has come in.
+  double const grown =
+      slow.area() - scarp::region_area(slow.problem.discretisation().mesh(), "soil", slow.problem.grid().nodes());
+  CHECK(-slow.water().expelled() == samples::Approx(grown).epsilon(1e-4));
+}
+
+TEST_CASE("a fast rupture leaves suction and pressure, which drain while the bedrock rests") {
+  RuptureTimes const times{.rupture = 1.0, .drainage = 1e6};
+  Run fast(wet<NoStructure>(0.3, times));
+  auto const begun = fast.problem.grid().positions();
+  double const before = fast.area();
+  auto const pressures = fast.water().pressures();
+  auto const [least, most] = std::ranges::minmax(pressures);
+  CHECK(least < -50e3);
+  CHECK(most > 20e3);
+  CHECK(fast.water().time() - times.begin(0.0) == samples::Approx(1.0).epsilon(1e-6));
+  double const expelled = fast.water().expelled();
+  fast.rest();
+  auto const rested = fast.water().pressures();
+  for (double const pressure : rested) CHECK(std::abs(pressure) < 1.0);
+  CHECK(fast.water().time() - times.begin(0.0) == samples::Approx(1e6 + 1.0).epsilon(1e-6));
+  // The bedrock has not moved, and water has come in as the ground grew.
+  for (auto const& name : {"bottom", "left", "right"})
+    for (int const node : fast.problem.grid().boundary_nodes(name)) {
+      auto const at = static_cast<std::size_t>(node);
+      CHECK((fast.problem.grid().positions()[at] - begun[at]).norm() < 1e-12);
+    }
+  // But for what the water itself grows by as its pressure goes: a thousandth of it.
+  CHECK(expelled - fast.water().expelled() == samples::Approx(fast.area() - before).epsilon(1e-2));
+}
+
+TEST_CASE("a footing has no water, stands drained before the fault moves, and settles by what drains") {
+  Run fast(wet<TiedFooting>(0.02, {.rupture = 1.0}));
+  auto const& grid = fast.problem.discretisation();
+  auto const pressures = fast.water().pressures();
+  for (std::size_t node = 0; node < pressures.size(); ++node)
+    if (grid.nodes()[node].y() >= depth) CHECK(pressures[node] == 0.0);
+  CHECK(fast.water().expelled() > 0.1);  // squeezed out below the footing
+  CHECK(fast.scene.end() == fast.scene.throw_to);
+}
+
+TEST_CASE("times of a rupture follow the throw, and those without sense are refused") {
+  RuptureTimes const times{.rupture = 2.0, .drainage = 2e3};
+  auto const clock = times.clock(-1.0, 0.5);
+  double const start = times.begin(-1.0);
+  CHECK(clock(-1.0) == RuptureTimes::before);
+  CHECK(clock(0.0) == start);
+  CHECK(clock(0.25) - start == samples::Approx(1.0).epsilon(1e-6));
+  CHECK(clock(0.5) - start == samples::Approx(2.0).epsilon(1e-6));
+  CHECK(clock(times.end(0.5)) - start == samples::Approx(2002.0).epsilon(1e-9));
+  int knots = 0;
+  for (double knot = 0.5; knot < times.end(0.5); knot = clock.next_knot(knot)) ++knots;
+  CHECK(knots == 25);  // four decades from 0.2 s, six a decade, and the first
+  CHECK(RuptureTimes{}.end(0.5) == 0.5);
+  CHECK_REFUSED(wet<NoStructure>(0.1, {.rupture = 0.0}).problem(*std::make_unique<scarp::SerialExecutor>()),
+                "time of the rupture");
+  CHECK_REFUSED(wet<NoStructure>(0.1, {.drainage = -1.0}).problem(*std::make_unique<scarp::SerialExecutor>()),
+                "time of drainage");
+}
