@@ -126,6 +126,11 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
 
 /// Ground that its own weight squeezes to nothing, and a footing that it hardly feels, have no balance.
 inline void require_balance(Choice const& choice) {
+  if (!(choice.effective_unit_weight() > 0.0))
+    scarp::reject(
+        "--unit-weight is {} N/m3 with a --void-ratio of {} (dry; its grains would float in water): give the weight of "
+        "the dry ground",
+        choice.unit_weight, choice.void_ratio);
   double const carried = choice.surcharge + choice.effective_unit_weight() * choice.depth;
   if (choice.soil != Soil::dem && choice.young_modulus < carried)
     scarp::reject(

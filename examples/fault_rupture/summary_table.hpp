@@ -90,7 +90,7 @@ inline std::string table(nlohmann::ordered_json const& json) {
       std::string name = when;
       std::ranges::replace(name, '_', ' ');
       row(fmt::format("{}, {:.4g} s: excess pressure [kPa]", name, at("time")),
-          fmt::format("{:.0f}, {:.0f}", at("excess_pressure_min") / 1e3, at("excess_pressure_max") / 1e3),
+          fmt::format("{:.1f}, {:.1f}", at("excess_pressure_min") / 1e3, at("excess_pressure_max") / 1e3),
           fmt::format("largest over the overburden, r_u: {:.2f}", at("pressure_ratio_max")));
       row("  water that has left, vapour [m3 per m]", fmt::format("{:.3f}, {:.3f}", at("expelled"), at("vapour")), "");
       row("  surface_x50 [m], steepest slope [degrees]",

@@ -17,18 +17,18 @@ def excess_pressure(folder):
     places = [np.argmin([abs(time - wanted) for time, _ in series]) for wanted in (throw / 2, throw, 2 * throw)]
     grids = [(series[k], read_plane(series[k][1])) for k in np.unique(places)]
     values = [1e-3 * figures.field(grid.at_nodes, "excess_pore_pressure", path) for (_, path), grid in grids]
+    most = max(*(np.abs(pressure).max() for pressure in values), 1e-3)
     fig, panels = plt.subplots(len(grids), 1, figsize=(6.4, 0.6 + 2.0 * len(grids)), sharex=True, squeeze=False)
     for axes, ((time, _), grid), pressure in zip(panels[:, 0], grids, values):
-        most = max(np.abs(pressure).max(), 1e-3)
         mesh = Triangulation(*grid.points.T, triangles_of(grid))
         filled = axes.tricontourf(mesh, pressure, levels=np.linspace(-most, most, 15), cmap="RdBu", norm=Normalize(-most, most))
         axes.add_collection(LineCollection(outline(grid), colors=GREY, linewidths=0.6))
-        fig.colorbar(filled, ax=axes, label="[kPa]", aspect=12)
         rested = " and drainage" if time > throw * (1.0 + 1e-6) else ""
         axes.set(ylabel="y [m]", aspect="equal",
                  title=f"Excess pore pressure, h/H = {min(time, throw):.3g}{rested}: {pressure.min():.3g} to {pressure.max():.3g} kPa")
         axes.grid(False)
     panels[-1, 0].set_xlabel("x [m]")
+    fig.colorbar(filled, ax=panels[:, 0], label="excess pore pressure [kPa]", aspect=35)
     return fig
 
 
@@ -47,10 +47,13 @@ def water(folder):
     volume.plot(time, curves["expelled"], color=BLUE, label="water that has left")
     volume.plot(time, curves["vapour"], color=VERMILION, label="vapour")
     volume.set(ylabel="volume [m³ per m]")
-    surface.plot(time, curves["surface_x50"], color=GREEN, label="x of half of the throw [m]")
+    surface.plot(time, curves["surface_x50"], color=GREEN, label="half of the throw")
+    surface.set(xlabel="time since the fault began to move [s]", ylabel="x [m]")
     if np.isfinite(curves["settlement"]).any():
-        surface.plot(time, curves["settlement"], color=BLUE, label="settlement of the footing [m]")
-    surface.set(xlabel="time since the fault began to move [s]", ylabel="[m]")
+        footing = surface.twinx()
+        footing.plot(time, curves["settlement"], color=BLUE)
+        footing.set_ylabel("settlement of the footing [m]", color=BLUE)
+        footing.grid(False)
     for axes in (pressure, volume, surface):
         axes.axvline(end, color=BLACK, linestyle=":", linewidth=0.9, label="end of the throw")
         axes.legend(fontsize=7)

@@ -40,7 +40,9 @@ class WaterLog : public scarp::NeverStops {
   template <class Problem>
   void attempted(Problem const& problem, scarp::StepReport const& report) {
     rest_.attempted(problem, report);
-    if (!report.verdict.acceptable() || report.load < 0.0) return;
+    if (!report.verdict.acceptable()) return;
+    if (!(report.load > 0.0)) expelled_at_rest_ = water_of(problem).expelled();
+    if (report.load < 0.0) return;
     rows_.push_back(row_of(problem, report.load));
     std::apply([&](auto... values) { table_.add(values...); }, rows_.back());
   }
@@ -56,7 +58,7 @@ class WaterLog : public scarp::NeverStops {
     }
   }
 
-  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_)
+  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_, expelled_at_rest_)
 
  private:
   static constexpr std::array names{"throw_over_depth",
@@ -73,9 +75,13 @@ class WaterLog : public scarp::NeverStops {
   using Row = std::array<double, names.size()>;
 
   template <class Problem>
+  auto const& water_of(Problem const& problem) const {
+    return problem.template attached<decltype(scene_.structure.attached(problem.discretisation(), scene_.throw_to))>();
+  }
+  template <class Problem>
   Row row_of(Problem const& problem, double load) const {
     auto const& grid = problem.discretisation();
-    auto const& water = problem.template attached<decltype(scene_.structure.attached(grid, scene_.throw_to))>();
+    auto const& water = water_of(problem);
     auto const pressures = water.pressures();
     auto const [least, most] = std::ranges::minmax(pressures);
     double ratio = 0.0;
@@ -98,7 +104,7 @@ class WaterLog : public scarp::NeverStops {
             least,
             most,
             ratio,
-            water.expelled(),
+            water.expelled() - expelled_at_rest_,
             water.vapour(),
             survey.surface.surface_x50,
             survey.surface.surface_slope_max,
@@ -111,6 +117,7 @@ class WaterLog : public scarp::NeverStops {
   scarp::CsvLog table_;
   scarp::GroundAtRest<2> rest_;
   std::vector<Row> rows_;
+  double expelled_at_rest_ = 0.0;  ///< [m3]
 };
 
 template <class Structure>

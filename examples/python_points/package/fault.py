@@ -108,16 +108,16 @@ class FaultRun(Run):
 
 
 def _program(keywords: Dict[str, Any]) -> tuple[str, str]:
-    """Name, and words that build it: elements and devices have programs of their own."""
-    element = str(keywords.get("element") or "tri3")
-    device = keywords.get("device")
-    if device in (None, "none"):
-        keywords.pop("device", None)
-        name = "fault_rupture" if element == "tri3" else f"fault_rupture_{element}"
-        return name, "fault_rupture" if element == "tri3" else f"fault_rupture --element {element}"
-    if element != "tri3":
-        raise ValueError(f"element is {element} and device is {device} (no program has both): leave one out")
-    return "fault_rupture_device", f"fault_rupture --device {device}"
+    """Name, and words that build it: elements, devices and water have programs of their own."""
+    if keywords.get("device") == "none":
+        keywords.pop("device")
+    own = {"element": "{}", "device": "device", "water_table": "water"}
+    chosen = [key for key in own if keywords.get(key) is not None and (key, keywords[key]) != ("element", "tri3")]
+    if len(chosen) > 1:
+        raise ValueError(f"{' and '.join(chosen)} are given (no program has both): leave one out")
+    for key in chosen:
+        return "fault_rupture_" + own[key].format(keywords[key]), f"fault_rupture --{key.replace('_', '-')} {keywords[key]}"
+    return "fault_rupture", "fault_rupture"
 
 
 def _given(options: Mapping[str, Any], **others: str) -> tuple[str, Dict[str, List[str]]]:

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -29,7 +30,8 @@ class Progress : public NeverStops {
     if (from_ < 0.0 && report.load > 0.0) from_ = report.load - report.load_increment;
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
-      double const remaining = report.load > 0.0 ? elapsed * (to_ - report.load) / (report.load - from_) : 0.0;
+      double const left = std::max(to_ - report.load, 0.0);
+      double const remaining = report.load > 0.0 ? elapsed * left / (report.load - from_) : 0.0;
       print("{}step {:4}  {} {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
             report.step, measure_.name, measure_.of(report.load), report.residual(), report.iterations(), elapsed,
             remaining);
