@@ -237,6 +237,24 @@ TEST_CASE("pores close with the ground, and less water passes") {
   CHECK(flow.mobility(0.6) == Approx(1e-8 * 0.216 / (180.0 * 1.6 * 1e-3)).epsilon(1e-12));
 }
 
+TEST_CASE("ground that shrinks beyond its grains stays permeable") {
+  auto const grid = column_grid<Quad8>();
+  PoreWater water(grid, KozenyCarman{.grain = 1e-4},
+                  {.shear_modulus = shear, .void_ratio = 0.1, .clock = TimeFunction({{0.0, 0.0}, {1.0, 1e9}})});
+  water.drain({"top"});
+  scarp::Model model(grid);
+  model.fix({"left", "right"}, 0);
+  model.fix({"bottom"}, 1);
+  model.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, poisson));
+  model.attach(water);
+  model.move({"top"}, 1, -0.2 * height);
+  scarp::Analysis analysis(
+      model, {.stepping = {.first = 0.1, .largest = 0.1, .max_displacement_gradient = 1.0}, .threads = 1});
+  REQUIRE(analysis.to(1.0).verdict.acceptable());
+  CHECK(*std::ranges::min_element(analysis.problem().attached<decltype(water)>().void_ratios()) < -0.1);
+  for (double const pressure : pressures(analysis, water)) CHECK(pressure >= 0.0);  // water that is pressed out
+}
+
 TEST_CASE("a consolidation that was saved goes on with the same bits") {
   auto const grid = column_grid<Quad8>();
   PoreWater water(grid, KozenyCarman{.grain = 1e-6},

@@ -50,8 +50,8 @@ inline std::string budget_table(BudgetParts const& parts) {
   return text;
 }
 
-/// Part of an error budget that a single run cannot estimate: how far its result is from that of a sensitivity run, the same scene with one
-/// choice made otherwise - a mesh of other directions, smaller load steps.
+/// Part of an error budget that a single run cannot estimate: how far its result is from that of a sensitivity run, the
+/// same scene with one choice made otherwise - a mesh of other directions, smaller load steps.
 /// own, other: the same measure of both runs; size: what an error is relative to, in the measure's unit
 /// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
 inline BudgetPart sensitivity_part(std::string name, double own, double other, double size, double bound,
@@ -61,7 +61,8 @@ inline BudgetPart sensitivity_part(std::string name, double own, double other, d
   return {std::move(name), std::abs(other - own) / size, bound, std::move(meaning)};
 }
 
-/// Bounds beyond which a run reports that it is outside its error budget. All are relative; docs/error-budget.md gives the reasons.
+/// Bounds beyond which a run reports that it is outside its error budget. All are relative; docs/error-budget.md gives
+/// the reasons.
 struct ErrorBounds {
   double residual = 1e-2;         ///< largest of an accepted step, over the forces that act
   double work_gap = 5e-2;         ///< external against internal work of the run

@@ -30,10 +30,10 @@ struct NoWorkBalance {
 
 }  // namespace detail
 
-/// Observer that estimates the errors of a run from cheap checks on the way: balance of the packings, residuals, work, responses
-/// with twice the work to single increments (samples) and along the whole paths of a few points. Differences of stress are
-/// relative to a point's stress, now or when the budget was made, whichever is larger: soil that has lost its pressure
-/// carries nothing that its error could be compared with. It changes nothing.
+/// Observer that estimates the errors of a run from cheap checks on the way: balance of the packings, residuals, work,
+/// responses with twice the work to single increments (samples) and along the whole paths of a few points. Differences
+/// of stress are relative to a point's stress, now or when the budget was made, whichever is larger: soil that has lost
+/// its pressure carries nothing that its error could be compared with. It changes nothing.
 /// Where points are distributed over processes, those of the first are evaluated.
 /// \code
 /// ErrorBudget budget(problem, {.residual = 1e-3}, {.pressure_floor = 2e3});
@@ -66,7 +66,8 @@ class ErrorBudget : public NeverStops {
     tracked_ = TrackedPoints::choose(problem, seen_, sampling);
   }
 
-  /// Counts the work of an attempt, and after an accepted one checks residual, work, packings, tracked points and samples.
+  /// Counts the work of an attempt, and after an accepted one checks residual, work, packings, tracked points and
+  /// samples.
   void attempted(Problem const& problem, StepReport const& report) {
     for (auto const& record : report.history) {
       work_ += record.inner_steps;

@@ -78,8 +78,9 @@ struct SampledDifferences {
   SCARP_MEMBERS(differences, carried)
 };
 
-/// Step doubling at sampled points: an accepted increment is repeated with twice the DEM steps from the same state. Every other
-/// sample is the most strained point of its step, unless that was taken; the others are spread over all points.
+/// Step doubling at sampled points: an accepted increment is repeated with twice the DEM steps from the same state.
+/// Every other sample is the most strained point of its step, unless that was taken; the others are spread over all
+/// points.
 struct DoubledSamples {
   SampledDifferences spread{};    ///< over all points
   SampledDifferences strained{};  ///< the most strained point of a step
@@ -88,8 +89,8 @@ struct DoubledSamples {
   /// Samples so far, spread and strained ones.
   std::size_t count() const { return spread.differences.size() + strained.differences.size(); }
 
-  /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that samples
-  /// may have cost up to now
+  /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that
+  /// samples may have cost up to now
   template <class Problem>
   void sample(Problem const& problem, std::vector<int> const& points, std::vector<double> const& at_rest,
               ErrorSampling const& sampling, long afforded) {
@@ -196,8 +197,8 @@ struct TrackedPoints {
     return tracked;
   }
 
-  /// After an accepted step, the first of which they begin with. at_rest [Pa]: sizes of all points' stresses when the run
-  /// began
+  /// After an accepted step, the first of which they begin with. at_rest [Pa]: sizes of all points' stresses when the
+  /// run began
   template <class Problem>
   void follow(Problem const& problem, std::vector<double> const& at_rest) {
     constexpr int dim = Problem::dim;
@@ -244,9 +245,10 @@ struct TrackedPoints {
     return std::any_of(points.begin(), points.end(), [](auto const& one) { return !one.bits.empty(); });
   }
 
-  /// What the points' differences have in common, over what they carry, root mean square over the steps: the mean over all pairs
-  /// of points of the products of their differences, over that of what they carry. What differs by chance from point to
-  /// point, as between two packings of one sand, has no part in it; of one point alone its own difference.
+  /// What the points' differences have in common, over what they carry, root mean square over the steps: the mean over
+  /// all pairs of points of the products of their differences, over that of what they carry. What differs by chance
+  /// from point to point, as between two packings of one sand, has no part in it; of one point alone its own
+  /// difference.
   double together() const { return steps > 0 ? std::sqrt(nan_max(0.0, square_sum / steps)) : 0.0; }
 
   /// Root mean square of the differences over points and steps.

@@ -19,13 +19,14 @@
 
 namespace scarp {
 
-/// What acts on the nodes of a mesh in addition to its elements: contact with another body, springs, the other body itself with
-/// degrees of freedom of its own, which follow those of the mesh. Committed and trial states as for materials:
-/// add_forces(nodes, increment, forces): adds the internal forces [N] at an increment from the committed state, given the
-/// committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last requested increment;
-/// commit(nodes, increment): makes that state the committed one, before the nodes move; thickness(), where it has one, is
-/// compared with the mesh's; length() [m], where it has one, is the size of a body with degrees of freedom of its own, which its
-/// motions are measured by. What can slide also has
+/// What acts on the nodes of a mesh in addition to its elements: contact with another body, springs, the other body
+/// itself with degrees of freedom of its own, which follow those of the mesh. Committed and trial states as for
+/// materials:
+/// add_forces(nodes, increment, forces): adds the internal forces [N] at an increment from the committed state, given
+/// the committed positions of the nodes [m]; add_stiffness(entries): their derivative at the last requested increment;
+/// commit(nodes, increment): makes that state the committed one, before the nodes move; thickness(), where it has one,
+/// is compared with the mesh's; length() [m], where it has one, is the size of a body with degrees of freedom of its
+/// own, which its motions are measured by. What can slide also has
 /// add_stick_stiffness(entries): the stiffness as if nothing slid, positive where bodies touch.
 template <class Part, int Dim>
 concept Attachment = requires(Part& part, Part const& constant, std::vector<Vector<Dim>> const& nodes,
@@ -46,12 +47,13 @@ struct NodalField {
   std::vector<double> values;  ///< shape (nodes)
 };
 
-/// An attachment whose degrees of freedom are a field over the mesh, such as the pressure of pore water, and no bodies: they are
-/// solved together with the displacements, and what is known of them belongs to the field itself. is_field: true;
-/// at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor beyond one
-/// where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its own equations,
-/// relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words; nodal_fields() and ground_force(), what it
-/// does to the mesh [N], shape (dof_count of the mesh): committed.
+/// An attachment whose degrees of freedom are a field over the mesh, such as the pressure of pore water, and no bodies:
+/// they are solved together with the displacements, and what is known of them belongs to the field itself. is_field:
+/// true;
+/// at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor
+/// beyond one where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its
+/// own equations, relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words;
+/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {

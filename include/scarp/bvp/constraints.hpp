@@ -17,8 +17,9 @@
 
 namespace scarp {
 
-/// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has, or rate *
-/// (amplitude(load factor) - amplitude(0)). Degree of freedom = dim * node + axis; those of attached bodies follow.
+/// Prescribed displacements of nodes: displacement [m] = rate * load factor, in the unit that the load factor has, or
+/// rate * (amplitude(load factor) - amplitude(0)). Degree of freedom = dim * node + axis; those of attached bodies
+/// follow.
 class Constraints {
  public:
   /// extra_dofs: degrees of freedom that follow those of the nodes
@@ -43,7 +44,8 @@ class Constraints {
   }
 
   /// Moves a node along an axis of space by rate [m] times the growth of `amplitude` since the load factor 0.
-  /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different motion
+  /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different
+  /// motion
   void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
     if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
       reject("node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node,
@@ -52,8 +54,8 @@ class Constraints {
     prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
   }
 
-  /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times the growth of `amplitude` since the load
-  /// factor 0.
+  /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times the growth of `amplitude` since
+  /// the load factor 0.
   /// \throws InputError for one that does not exist, a rate that is not finite, or a second, different motion
   void move_extra(int number, double rate, TimeFunction amplitude = {}) {
     int const extra_dofs = dof_count() - dim_ * nodes_;

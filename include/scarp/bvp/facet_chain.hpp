@@ -67,8 +67,8 @@ class FacetChain {
     return (b - a).normalized();
   }
 
-  /// The place of the chain that a point is opposite to along a direction, a unit vector out of the body: the nearest one on that
-  /// line, on either side of the point; without one the nearest place of the chain, `at_end`.
+  /// The place of the chain that a point is opposite to along a direction, a unit vector out of the body: the nearest
+  /// one on that line, on either side of the point; without one the nearest place of the chain, `at_end`.
   ClosestPoint project_along(Vector<2> const& point, Vector<2> const& direction,
                              std::vector<Vector<2>> const& nodes) const {
     constexpr double round_off = 1e-12;

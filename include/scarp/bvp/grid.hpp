@@ -29,9 +29,10 @@ struct Distortion {
   Vector<Dim> place = Vector<Dim>::Zero();  ///< of its middle now [m]
 };
 
-/// Finite elements of any kind on a mesh, as a `Problem` sees them: displacement increments to gradients at the integration points,
-/// stresses at the points to nodal forces and stiffness. `Discretisation` makes one of an element, kinematics and integration, and
-/// documents the sums. Its only state is the committed positions of the nodes. Degree of freedom = Dim * node + axis.
+/// Finite elements of any kind on a mesh, as a `Problem` sees them: displacement increments to gradients at the
+/// integration points, stresses at the points to nodal forces and stiffness. `Discretisation` makes one of an element,
+/// kinematics and integration, and documents the sums. Its only state is the committed positions of the nodes. Degree
+/// of freedom = Dim * node + axis.
 template <int Dim>
 class Grid {
  public:

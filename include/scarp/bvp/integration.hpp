@@ -32,7 +32,8 @@ template <class Policy, class Element>
 inline constexpr std::size_t material_points = std::tuple_size_v<decltype(Policy::template points<Element>())>;
 
 /// gradients<Motion>(shapes, moves): the displacement gradient of each point for nodal moves from the shapes'
-/// configuration, before Motion::material_gradient. A point that the moves turn inside out keeps a gradient G with det(I + G) <= 0.
+/// configuration, before Motion::material_gradient. A point that the moves turn inside out keeps a gradient G with
+/// det(I + G) <= 0.
 template <class Policy, class Element>
 concept GivesGradients = PlacesPoints<Policy, Element> &&
     requires(ElementShapes<Element, material_points<Policy, Element>> const& shapes,

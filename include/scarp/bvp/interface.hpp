@@ -11,9 +11,9 @@
 
 namespace scarp {
 
-/// The body that stands on a mesh's outline: how its places move. place(k): committed; place(k, nodes, increment): after an
-/// increment; along(k, ...): unit vector along its base there, body on the left; jacobians_at(k, ...): what moves it. Its own
-/// degrees of freedom begin where those of the mesh's nodes end.
+/// The body that stands on a mesh's outline: how its places move. place(k): committed; place(k, nodes, increment):
+/// after an increment; along(k, ...): unit vector along its base there, body on the left; jacobians_at(k, ...): what
+/// moves it. Its own degrees of freedom begin where those of the mesh's nodes end.
 template <class Body>
 concept StandsOnMesh = requires(Body& body, Body const& constant, std::size_t k, std::vector<Vector<2>> const& nodes,
                                 Eigen::VectorXd const& increment) {
@@ -37,10 +37,10 @@ struct InterfacePoint {
   double gap = 0.0;                      ///< [m], negative: overlap
 };
 
-/// Contact between the outline of a mesh and a body that stands on it, in the plane: a contact law, in stresses over displacements
-/// [Pa/m] where grains have forces, at fixed points of the standing body against the facet opposite to them. Areas and directions
-/// are the body's: the force of a uniform pressure is exact, and a point that slides over a kink of the ground changes its force
-/// continuously.
+/// Contact between the outline of a mesh and a body that stands on it, in the plane: a contact law, in stresses over
+/// displacements [Pa/m] where grains have forces, at fixed points of the standing body against the facet opposite to
+/// them. Areas and directions are the body's: the force of a uniform pressure is exact, and a point that slides over a
+/// kink of the ground changes its force continuously.
 template <CheckedContactLaw Law, StandsOnMesh Body>
 class Interface {
   static_assert(
@@ -51,8 +51,8 @@ class Interface {
   using Memory = ContactMemory<2, double>;  ///< shear [Pa] and further numbers of the law at one point
 
   /// nodes [m]: committed places. Laws with bonds begin intact at every point.
-  /// \throws InputError for a body whose degrees of freedom do not follow those of the nodes, stiffnesses or a friction below 0,
-  /// and a law without normal stiffness
+  /// \throws InputError for a body whose degrees of freedom do not follow those of the nodes, stiffnesses or a friction
+  /// below 0, and a law without normal stiffness
   Interface(Law law, Body body, FacetChain ground, std::vector<Vector<2>> const& nodes)
       : law_(std::move(law)), body_(std::move(body)), ground_(std::move(ground)) {
     constexpr double slight = 1e-6;  // overlap [m], for laws that have no stiffness in mere touch
@@ -99,7 +99,8 @@ class Interface {
     add_stiffness(entries, [&](State const& state) { return state.stiffness; });
   }
 
-  /// Appends the stiffness [N/m] as if nothing slid: that of the closed contact where there is pressure or stiffness, else zero.
+  /// Appends the stiffness [N/m] as if nothing slid: that of the closed contact where there is pressure or stiffness,
+  /// else zero.
   void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
     add_stiffness(entries, [&](State const& state) {
       bool const touches = state.pressure != 0.0 || state.stiffness != Tensor<2>::Zero();
@@ -174,8 +175,9 @@ class Interface {
     return closed.normal * normal * normal.transpose() + closed.tangential * state.along * state.along.transpose();
   }
 
-  /// Finds the closest place of a point, evaluates the law, and stores the derivative by forward differences: laws of springs and
-  /// sliders are piecewise linear, and the closing side is the one that matters at a point that just touches.
+  /// Finds the closest place of a point, evaluates the law, and stores the derivative by forward differences: laws of
+  /// springs and sliders are piecewise linear, and the closing side is the one that matters at a point that just
+  /// touches.
   void update(std::size_t k, std::vector<Vector<2>> const& nodes, std::vector<Vector<2>> const& moved,
               Eigen::VectorXd const& increment) {
     State const& before = committed_[k];

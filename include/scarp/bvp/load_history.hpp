@@ -11,8 +11,8 @@
 
 namespace scarp {
 
-/// Course of a load or a prescribed motion over the load factor, which plays the part of time: linear between its knots,
-/// constant beyond the outer ones. Without knots it is the load factor itself.
+/// Course of a load or a prescribed motion over the load factor, which plays the part of time: linear between its
+/// knots, constant beyond the outer ones. Without knots it is the load factor itself.
 class TimeFunction {
  public:
   TimeFunction() = default;
@@ -70,8 +70,8 @@ class TimeFunction {
   double slope_at_end_ = 0.0;
 };
 
-/// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its amplitude. Without a pattern
-/// it has no size of its own, and a problem treats it as no load.
+/// Nodal forces [N] of a problem over its load factor: a sum of fixed patterns, each with its amplitude. Without a
+/// pattern it has no size of its own, and a problem treats it as no load.
 class LoadHistory {
  public:
   LoadHistory() = default;

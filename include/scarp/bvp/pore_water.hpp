@@ -23,23 +23,26 @@
 
 namespace scarp {
 
-/// Water that fills the pores of a ground and flows through them (Biot 1941), as a field that is attached to its elements. Stresses
-/// of the materials are effective ones; the excess u of the pore pressure over that of water at rest [Pa], positive in compression,
-/// is unknown at the corners:
+/// Water that fills the pores of a ground and flows through them (Biot 1941), as a field that is attached to its
+/// elements. Stresses of the materials are effective ones; the excess u of the pore pressure over that of water at rest
+/// [Pa], positive in compression, is unknown at the corners:
 /// \f$ \int (\sigma' - u I):\nabla w\,dv = W_{ext}, \qquad
-///     \int q \left( \frac{\dot J}{J} + S\,\dot u \right) dv + \int \frac{k}{\mu} \nabla q \cdot \nabla u\,dv = Q_{in} \f$
-/// Force and volume are integrated as the ground is, S and k are those of the `HydraulicProvider`, time steps are implicit (backward
-/// Euler), and volumes are balanced in totals since the start. Weight is a dead load of what water does not carry: below the
-/// water table give the ground its buoyant unit weight.
+///     \int q \left( \frac{\dot J}{J} + S\,\dot u \right) dv + \int \frac{k}{\mu} \nabla q \cdot \nabla u\,dv = Q_{in}
+///     \f$
+/// Force and volume are integrated as the ground is, S and k are those of the `HydraulicProvider`, time steps are
+/// implicit (backward Euler), and volumes are balanced in totals since the start. Weight is a dead load of what water
+/// does not carry: below the water table give the ground its buoyant unit weight.
 ///
-/// Quadratic elements have Taylor and Hood's pressures. Those of linear ones are stabilised by their projection onto the mean of
-/// the element (Dohrmann and Bochev 2004; White and Borja 2008), \f$ \frac{1}{2G} \int (q - \bar q)(\Delta u - \overline{\Delta u})\,dv \f$.
-/// In a step that is shorter than elements of size h can show (Vermeer and Verruijt 1981, with the modulus 2G), changes of pressure
-/// are smoothed as in one of that length:
-/// \f$ \max\left(\frac{h^2}{12 G} - \Delta t \frac{k}{\mu}, 0\right) \int \nabla q \cdot \nabla \Delta u\,dv \f$. Neither makes water.
+/// Quadratic elements have Taylor and Hood's pressures. Those of linear ones are stabilised by their projection onto
+/// the mean of the element (Dohrmann and Bochev 2004; White and Borja 2008),
+/// \f$ \frac{1}{2G} \int (q - \bar q)(\Delta u - \overline{\Delta u})\,dv \f$. In a step that is shorter than elements
+/// of size h can show (Vermeer and Verruijt 1981, with the modulus 2G), changes of pressure are smoothed as in a longer
+/// one:
+/// \f$ \max\left(\frac{h^2}{12 G} - \Delta t \frac{k}{\mu}, 0\right) \int \nabla q \cdot \nabla \Delta u\,dv \f$.
+/// Neither makes water.
 ///
-/// With `at_rest`, u is 0 above the water table, and water cavitates: where its pressure p is below p_c, vapour takes the share
-/// (p_c - p)/K_v of the volume, lumped at the corners. K_v = `vapour_modulus`: p falls by 1 kPa for a tenth of the volume.
+/// With `at_rest`, u is 0 above the water table, and water cavitates: where its pressure p is below p_c, vapour takes
+/// the share (p_c - p)/K_v of the volume, lumped at the corners: p falls by 1 kPa for a tenth of the volume.
 /// \code
 /// DefaultGrid<Tri6> const grid(mesh);
 /// PoreWater water(grid, ConstantPermeability{.conductivity = 1e-8}, {.shear_modulus = 4e6});
@@ -79,8 +82,7 @@ class PoreWater {
     require_finite("excess pore pressure of a boundary", pressure);
     for (auto const side : sides) prescribe(field_.corners_on(side), pressure, amplitude);
   }
-  /// Lets water in through boundaries, volume per area and time [m/s] on the initial mesh, times an amplitude over the load factor;
-  /// out where it is negative.
+  /// Lets water in through boundaries, or out: volume per initial area and time [m/s], times an amplitude.
   /// \throws InputError for an unknown boundary and a rate that is not finite
   void inflow(Sides sides, double rate, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
     require_finite("rate of inflow", rate);
@@ -110,12 +112,12 @@ class PoreWater {
   void commit(std::vector<Vector<dim>> const&, Values const& increment);
 
   // What a field needs.
-  /// \throws InputError for a clock that goes back, time that passes in impermeable ground, and inflow without an outlet
+  /// \throws InputError for a clock that goes back, time in impermeable ground, and inflow without an outlet
   void at(double load);
   double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
   std::string name() const { return "water"; }
-  /// Volumes that are not balanced, over those displaced in the step by strain, flow, vapour and the changes of pressure over the
-  /// shear modulus, or a thousandth of the most of any step before, Euclidean norms.
+  /// Volumes that are not balanced, over those displaced in the step by strain, flow, vapour and the changes of
+  /// pressure over the shear modulus, or a thousandth of the most of any step before, Euclidean norms.
   double residual(Values const& unbalanced) const {
     double const volume = unbalanced.norm() / scale_;
     return volume == 0.0 ? 0.0 : volume / std::max(trial_.displaced, 1e-3 * most_displaced_);

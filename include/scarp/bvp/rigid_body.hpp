@@ -15,8 +15,9 @@ struct DofJacobian {
   Vector<2> direction = Vector<2>::Zero();  ///< dimensionless
 };
 
-/// A rigid body in the plane with three degrees of freedom in addition to those of a mesh: the displacement of its reference point
-/// along x and y [m] and its rotation times `arm`, counter-clockwise [m], so that all three are lengths and their forces newtons.
+/// A rigid body in the plane with three degrees of freedom in addition to those of a mesh: the displacement of its
+/// reference point along x and y [m] and its rotation times `arm`, counter-clockwise [m], so that all three are lengths
+/// and their forces newtons.
 class RigidBody {
  public:
   static constexpr int extra_dofs = 3;

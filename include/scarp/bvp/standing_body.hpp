@@ -10,8 +10,9 @@
 
 namespace scarp {
 
-/// Points of a base on the ground below it: two Gauss points between all neighbouring nodes of either side, so that every product of a linear
-/// pressure and a linear shape function is integrated exactly while the two stay opposite each other (the contact patch test).
+/// Points of a base on the ground below it: two Gauss points between all neighbouring nodes of either side, so that
+/// every product of a linear pressure and a linear shape function is integrated exactly while the two stay opposite
+/// each other (the contact patch test).
 struct BasePoint {
   double along = 0.0;   ///< 0 to 1 over the part of the base that was requested
   double weight = 0.0;  ///< share of that part

@@ -88,9 +88,10 @@ concept GivesTangent = HasState<Model> && HasDimension<Model> &&
 template <class Model>
 concept ConstitutiveProvider = MakesInitialState<Model> && Responds<Model> && HasStress<Model> && GivesTangent<Model>;
 
-/// A provider whose number of inner steps is fixed for a load step, so that its response stays a smooth function of the increment
-/// while the solver iterates: plan(committed, predicted), respond(..., plan). An increment that needs more than `plan_slack` times
-/// the planned steps gets a plan of its own. Where a response is `not_converged` in the end, refined(plan) has more inner steps.
+/// A provider whose number of inner steps is fixed for a load step, so that its response stays a smooth function of the
+/// increment while the solver iterates: plan(committed, predicted), respond(..., plan). An increment that needs more
+/// than `plan_slack` times the planned steps gets a plan of its own. Where a response is `not_converged` in the end,
+/// refined(plan) has more inner steps.
 template <class Model>
 concept HasPlan = ConstitutiveProvider<Model> && requires {
   typename Model::Plan;
@@ -104,8 +105,8 @@ concept HasPlan = ConstitutiveProvider<Model> && requires {
 /// An increment may need so many times the inner steps that were planned for an earlier iterate.
 inline constexpr double plan_slack = 1.5;
 
-/// Whether a provider's tangent of a trial state is the derivative of its response, as Newton's method needs it. A provider states it by
-/// `static constexpr bool exact_tangent = true`.
+/// Whether a provider's tangent of a trial state is the derivative of its response, as Newton's method needs it. A
+/// provider states it by `static constexpr bool exact_tangent = true`.
 template <class Model>
 constexpr bool has_exact_tangent() {
   if constexpr (requires { Model::exact_tangent; }) return Model::exact_tangent;
@@ -145,8 +146,8 @@ Response<Model::dim> respond_as_planned(Model const& model, typename Model::Stat
   }
 }
 
-/// One increment of a single point: where the response is acceptable, `state` becomes the one at its end. A response that does not
-/// converge is repeated with more inner steps, at most max_refinements times.
+/// One increment of a single point: where the response is acceptable, `state` becomes the one at its end. A response
+/// that does not converge is repeated with more inner steps, at most max_refinements times.
 template <ConstitutiveProvider Model>
 Response<Model::dim> advance(Model const& model, typename Model::State& state, Gradient<Model::dim> const& increment,
                              [[maybe_unused]] int max_refinements = 8) {
@@ -195,8 +196,8 @@ consteval bool check_provider() {
         requires(Model const& model, Site<Model::dim> const& site) { model.empty_state(site); } ||
             !names_empty_state<Model>,
         "scarp: empty_state of a provider is never called: it needs `State empty_state(Site<dim> const&) const`");
-    // Providers have these two under constraints: a member whose constraint fails has no address. Neither has one that is overloaded or
-    // a template.
+    // Providers have these two under constraints: a member whose constraint fails has no address. Neither has one that
+    // is overloaded or a template.
     static_assert(
         requires(Model const& model, State const& state) { model.picture(state); } || !requires { &Model::picture; },
         "scarp: picture of a provider is never called: it needs `PackingPicture picture(State const&) const`");
@@ -214,8 +215,9 @@ consteval bool check_provider() {
 template <class Model>
 concept CheckedProvider = detail::check_provider<Model>();
 
-/// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the site. Providers
-/// whose states contain such data return it by `State empty_state(Site<dim> const&) const`, and so do adaptors, for the provider inside.
+/// A state that a saved one can be read into, with all that is not saved because it follows from the provider and the
+/// site. Providers whose states contain such data return it by `State empty_state(Site<dim> const&) const`, and so do
+/// adaptors, for the provider inside.
 /// \throws InputError for states that cannot be made so
 template <ConstitutiveProvider Provider>
 typename Provider::State empty_state([[maybe_unused]] Provider const& provider,

@@ -24,12 +24,13 @@ Vector<Dim> normal_vector(Random& random) {
 }
 
 /// A homogeneous smooth random field of mean zero and variance one, a function of the place alone:
-/// \f$ Z(x) = \sqrt{2/N} \sum_k \cos(w_k \cdot x + \phi_k) \f$, phases uniform, waves normal with the standard deviation \f$ \sqrt2 \f$
-/// over the correlation length along each axis. Two places have the correlation \f$ e^{-r^2} \f$, r their distance, each component over its
-/// correlation length.
-/// Mean, variance and correlation over all seeds are exact for any number of waves N; the distribution of a value tends to the normal
-/// one, its kurtosis is 3 - 3/(2N). Shinozuka and Jan, J. Sound Vib. 25 (1972) 111; waves drawn as by Kraichnan, Phys. Fluids 13
-/// (1970) 22.
+/// \f$ Z(x) = \sqrt{2/N} \sum_k \cos(w_k \cdot x + \phi_k) \f$, phases uniform, waves normal with the standard
+/// deviation \f$ \sqrt2 \f$
+/// over the correlation length along each axis. Two places have the correlation \f$ e^{-r^2} \f$, r their distance,
+/// each component over its correlation length.
+/// Mean, variance and correlation over all seeds are exact for any number of waves N; the distribution of a value tends
+/// to the normal one, its kurtosis is 3 - 3/(2N). Shinozuka and Jan, J. Sound Vib. 25 (1972) 111; waves drawn as by
+/// Kraichnan, Phys. Fluids 13 (1970) 22.
 template <int Dim>
 class CorrelatedField {
  public:

@@ -15,8 +15,8 @@ concept InitialStressField = requires(Field const& field, double depth) {
   { field.at(depth) } -> std::same_as<VoigtStress<Dim>>;
 };
 
-/// Level ground at rest: vertical \f$ \sigma_v = -(q + \gamma z) \f$, horizontal \f$ \sigma_h = K_0 \sigma_v \f$, no shear.
-/// The vertical is the last axis; compression is negative.
+/// Level ground at rest: vertical \f$ \sigma_v = -(q + \gamma z) \f$, horizontal \f$ \sigma_h = K_0 \sigma_v \f$, no
+/// shear. The vertical is the last axis; compression is negative.
 template <int Dim>
 struct GeostaticStress {
   double surcharge = 0.0;    ///< q [Pa], vertical pressure on the ground surface, positive in compression

@@ -9,9 +9,9 @@
 
 namespace scarp {
 
-/// How water moves through the pores of a ground and how much of it they store, by the void ratio (volume of pores over that of
-/// grains). mobility(void_ratio): permeability over viscosity k/mu [m2/(Pa s)]; storage(void_ratio): volume of water that a volume
-/// of ground takes in per pressure, without a change of its pores [1/Pa].
+/// How water moves through the pores of a ground and how much of it they store, by the void ratio (volume of pores over
+/// that of grains). mobility(void_ratio): permeability over viscosity k/mu [m2/(Pa s)]; storage(void_ratio): volume of
+/// water that a volume of ground takes in per pressure, without a change of its pores [1/Pa].
 template <class Flow>
 concept HydraulicProvider = requires(Flow const& flow, double void_ratio) {
   { flow.mobility(void_ratio) } -> std::convertible_to<double>;

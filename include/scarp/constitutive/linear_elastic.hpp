@@ -46,7 +46,8 @@ struct IsotropicElasticity {
     return from_lame(young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)));
   }
 
-  /// \f$ C_{ijkl} = \lambda \delta_{ij}\delta_{kl} + G(\delta_{ik}\delta_{jl} + \delta_{il}\delta_{jk}) \f$; 2D means plane strain.
+  /// \f$ C_{ijkl} = \lambda \delta_{ij}\delta_{kl} + G(\delta_{ik}\delta_{jl} + \delta_{il}\delta_{jk}) \f$; 2D means
+  /// plane strain.
   template <int Dim>
   VoigtTangent<Dim> stiffness() const {
     VoigtTangent<Dim> stiffness = VoigtTangent<Dim>::Zero();
@@ -64,8 +65,8 @@ struct IsotropicElasticity {
 };
 
 /// Isotropic linear elasticity between Cauchy stress and strain, carried along by the increment's rotation.
-/// \f$ \sigma_1 = R\,(\sigma_0 + \lambda\,tr(E) I + 2 G E)\,R^T \f$ with rotation R and strain E of the increment. A rotation on
-/// top of any increment turns the stress exactly. 2D means plane strain.
+/// \f$ \sigma_1 = R\,(\sigma_0 + \lambda\,tr(E) I + 2 G E)\,R^T \f$ with rotation R and strain E of the increment. A
+/// rotation on top of any increment turns the stress exactly. 2D means plane strain.
 /// \tparam Dim 2 or 3
 /// \tparam InitialStress an `InitialStressField`
 template <int Dim, class InitialStress = StressFree<Dim>>

@@ -13,9 +13,9 @@
 namespace scarp {
 
 /// Linear elasticity below a Mohr-Coulomb surface with tension cut-off; flow by the angle of dilation (associated where
-/// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain with the stress out of the
-/// plane as part of the state. The stress update is an implicit Euler step from the committed stress, turned by the
-/// increment's rotation.
+/// tension is cut off); strength constant or a function of the plastic shear strain. In two dimensions plane strain
+/// with the stress out of the plane as part of the state. The stress update is an implicit Euler step from the
+/// committed stress, turned by the increment's rotation.
 /// \tparam Dim 2 or 3
 /// \tparam InitialStress an `InitialStressField`
 /// \tparam StrengthType a `StrengthLaw`
@@ -61,7 +61,8 @@ struct MohrCoulomb {
   }
 
   /// For a state that comes from elsewhere.
-  /// \throws InputError where its stress lies outside the strength that its plastic shear strain leaves, since another law has made it
+  /// \throws InputError where its stress lies outside the strength that its plastic shear strain leaves, since another
+  /// law has made it
   void require_fitting(State const& state) const {
     Vector<3> const values = principal(from_voigt_stress<3, double>(state.stress)).values;
     Strength const left = strength.at(state.plastic_shear);
@@ -80,8 +81,9 @@ struct MohrCoulomb {
   /// Derivative of the last stress update with respect to its strain; before any, the elastic stiffness.
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
 
-  /// Fails with `not_finite`, `element_inverted`, or `no_return` where no strength belongs to the increment, since a strength
-  /// that rises at once by more than the increment bears lies in its way; `trial` is then a copy of `committed`.
+  /// Fails with `not_finite`, `element_inverted`, or `no_return` where no strength belongs to the increment, since a
+  /// strength that rises at once by more than the increment bears lies in its way; `trial` is then a copy of
+  /// `committed`.
   Response<Dim> respond(State const& committed, Gradient<Dim> const& increment, State& trial) const {
     trial = committed;
     RotatedIncrement<Dim> const moved(increment);
@@ -174,7 +176,8 @@ struct MohrCoulomb {
   }
 
   /// Adds to a return's tangent what the change of strength with the plastic shear strain does,
-  /// \f$ d\sigma = D\,d\varepsilon + \sigma_\kappa\,d\kappa,\; d\kappa = w\cdot d\varepsilon^p \f$ with w = +1 and -1 at the outer principal strains.
+  /// \f$ d\sigma = D\,d\varepsilon + \sigma_\kappa\,d\kappa,\; d\kappa = w\cdot d\varepsilon^p \f$ with w = +1 and -1
+  /// at the outer principal strains.
   void soften_tangent(Return& returned, Vector<3> const& trial, double plastic_shear) const {
     if (returned.planes == 0) return;
     constexpr double step = 1e-6;  // of plastic strain; the strength is smooth over it but for single kinks

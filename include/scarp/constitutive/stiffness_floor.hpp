@@ -10,8 +10,8 @@ namespace scarp {
 /// Any provider whose points keep a small elastic stiffness while they are fluid: a packing that has lost its contacts
 /// has no stiffness, and a node with such points all around it would be held by nothing. Strain of the fluid state
 /// meets an isotropic stiffness; its stress is added to the response and is dropped when contacts carry again.
-/// `floor_share` is the share of all stress that is not the material's. A point that is not fluid responds as the provider
-/// does, bit for bit.
+/// `floor_share` is the share of all stress that is not the material's. A point that is not fluid responds as the
+/// provider does, bit for bit.
 template <CheckedProvider Provider>
 struct StiffnessFloor {
   static constexpr int dim = Provider::dim;

@@ -46,8 +46,8 @@ struct Strength {
   }
 };
 
-/// at(plastic shear strain): the strength after so much plastic shear, the accumulated difference of the largest and the
-/// smallest principal plastic strain. `changes`: whether it depends on it at all.
+/// at(plastic shear strain): the strength after so much plastic shear, the accumulated difference of the largest and
+/// the smallest principal plastic strain. `changes`: whether it depends on it at all.
 template <class Law>
 concept StrengthLaw = std::copyable<Law> && requires(Law const& law, double plastic_shear) {
   { law.at(plastic_shear) } -> std::same_as<Strength>;
@@ -67,9 +67,9 @@ struct ConstantStrength {
 
 static_assert(StrengthLaw<ConstantStrength>);
 
-/// Strength that falls from peak to residual, linear in the plastic shear strain (angles in radians, cohesion and tension in
-/// pascals each for itself). Where one of the two cuts no tension off, the other's cut-off holds in between. Without an
-/// internal length the dissipation of a band depends on the mesh.
+/// Strength that falls from peak to residual, linear in the plastic shear strain (angles in radians, cohesion and
+/// tension in pascals each for itself). Where one of the two cuts no tension off, the other's cut-off holds in between.
+/// Without an internal length the dissipation of a band depends on the mesh.
 struct SofteningStrength {
   static constexpr bool changes = true;  ///< whether plastic strain changes the strength
 

@@ -24,8 +24,9 @@
 
 namespace scarp {
 
-/// A user's material subroutine by the interface that Abaqus publishes, as Fortran compilers call it on Unix. A C function without
-/// the last argument, the length of CMNAME, may be called so too. `extern "C" scarp::Umat umat_;` declares it.
+/// A user's material subroutine by the interface that Abaqus publishes, as Fortran compilers call it on Unix. A C
+/// function without the last argument, the length of CMNAME, may be called so too. `extern "C" scarp::Umat umat_;`
+/// declares it.
 using Umat = void(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd, double* rpl,
                   double* ddsddt, double* drplde, double* drpldt, double* stran, double* dstran, double* time,
                   double* dtime, double* temp, double* dtemp, double* predef, double* dpred, char* cmname, int* ndi,
@@ -65,12 +66,13 @@ class FencedNumbers {
 
 }  // namespace detail
 
-/// A user's UMAT as provider: in the plane by four components (11, 22, 33, 12), in space by six (11, 22, 33, 12, 13, 23), which
-/// `components = 6` gives in the plane too, for a UMAT that knows nothing else. Stress, total
-/// strain and state variables are parts of the state, so that a trial never changes what is committed. The increment is passed
-/// both as strain with rotation (DSTRAN, DROT; stress and strain are turned before) and as DFGRD0 and DFGRD1. State variables that are
-/// tensors are turned by the UMAT, as for Abaqus; a mirrored copy of a state is rejected.
-/// A UMAT that keeps something between calls (SAVE, COMMON) must not be called by several threads, and is no function of its state.
+/// A user's UMAT as provider: in the plane by four components (11, 22, 33, 12), in space by six (11, 22, 33, 12, 13,
+/// 23), which `components = 6` gives in the plane too, for a UMAT that knows nothing else. Stress, total
+/// strain and state variables are parts of the state, so that a trial never changes what is committed. The increment is
+/// passed both as strain with rotation (DSTRAN, DROT; stress and strain are turned before) and as DFGRD0 and DFGRD1.
+/// State variables that are tensors are turned by the UMAT, as for Abaqus; a mirrored copy of a state is rejected.
+/// A UMAT that keeps something between calls (SAVE, COMMON) must not be called by several threads, and is no function
+/// of its state.
 /// \tparam Dim 2 or 3
 /// \tparam InitialStress an `InitialStressField`
 template <int Dim, class InitialStress = StressFree<Dim>>
@@ -102,9 +104,10 @@ struct UmatProvider {
   double time_step = 1.0;             ///< DTIME of an increment [s]
   int components = Dim == 2 ? 4 : 6;  ///< NTENS; 6 in the plane for a UMAT that is written for space alone
 
-  /// The stress out of the plane starts as the horizontal one in it. The UMAT is called with a zero increment, for its tangent.
-  /// \throws InputError for a provider without a UMAT, a name of more than 80 letters, another number of components, an initial
-  /// stress that cannot be or that the UMAT does not keep, and for a UMAT without a tangent
+  /// The stress out of the plane starts as the horizontal one in it. The UMAT is called with a zero increment, for its
+  /// tangent.
+  /// \throws InputError for a provider without a UMAT, a name of more than 80 letters, another number of components, an
+  /// initial stress that cannot be or that the UMAT does not keep, and for a UMAT without a tangent
   State initial_state(Site<Dim> const& site) const {
     if (!umat) reject("a UmatProvider has no UMAT (its address is null): give it one");
     if (name.size() > name_length)
@@ -157,8 +160,8 @@ struct UmatProvider {
 
   VoigtTangent<Dim> tangent(State const& state) const { return state.tangent; }
 
-  /// Not converged (`no_return`) where the UMAT sets PNEWDT below one, failed for an increment that inverts and for stress or state
-  /// that is not finite; `trial` is then a copy of `committed`.
+  /// Not converged (`no_return`) where the UMAT sets PNEWDT below one, failed for an increment that inverts and for
+  /// stress or state that is not finite; `trial` is then a copy of `committed`.
   /// \throws InputError where the UMAT wrote outside of its arrays
   Response<Dim> respond(State const& committed, Gradient<Dim> const& increment, State& trial) const {
     trial = committed;
@@ -193,7 +196,8 @@ struct UmatProvider {
     for (int k = 0; k < components; ++k) to(places[detail::index(k)]) = from[k];
   }
 
-  /// state: committed, with the deformation at the end; then the new one, and of no use where the verdict is not acceptable
+  /// state: committed, with the deformation at the end; then the new one, and of no use where the verdict is not
+  /// acceptable
   /// strain: of the increment, in axes that turn with it
   Verdict call(State& state, Tensor<3> const& before, Tensor<3> const& turn, Tensor<3> const& strain) const {
     Tensor<3> const turned = turn * from_voigt_stress<3, double>(state.stress) * turn.transpose();

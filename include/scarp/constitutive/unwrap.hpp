@@ -10,7 +10,8 @@
 namespace scarp {
 
 /// Calls visit(provider, state) for the provider inside all adaptors, whose state contains no other provider's. An
-/// adaptor's state has a member `own`, and `provider` where every point has another one; else the adaptor itself has that member.
+/// adaptor's state has a member `own`, and `provider` where every point has another one; else the adaptor itself has
+/// that member.
 template <class Provider, class State, class Visit>
 decltype(auto) unwrap(Provider const& provider, State& state, Visit&& visit) {
   if constexpr (requires {

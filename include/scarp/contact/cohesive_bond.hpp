@@ -39,8 +39,10 @@ struct CohesiveBond {
   double tensile_strength = 0.0;  ///< T [N], finite
   double shear_strength = 0.0;    ///< C [N], infinite for a bond that shear does not break
 
-  /// A bond that no pull breaks would act across any gap, and no list of near pairs reaches as far; one that no shear breaks is well.
-  /// \throws InputError for strengths that are negative, a tensile strength that is not finite, and what the law rejects
+  /// A bond that no pull breaks would act across any gap, and no list of near pairs reaches as far; one that no shear
+  /// breaks is well.
+  /// \throws InputError for strengths that are negative, a tensile strength that is not finite, and what the law
+  /// rejects
   void validate() const {
     detail::validated(law);
     require_not_negative("tensile strength of the bonds", tensile_strength);

@@ -39,8 +39,8 @@ struct ContactInputs {
   int species = 0;      ///< number that the law distinguishes; `species` is given
 };
 
-/// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and rotation
-/// are zero where the memory already contains them.
+/// What a law may look at. Motions are those of the second grain relative to the first during the step; slip and
+/// rotation are zero where the memory already contains them.
 /// \tparam Dim 2 or 3
 /// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
@@ -103,7 +103,7 @@ concept RespondsInPacks = requires(Law const& law, ContactKinematics<2, lanes::P
   { law.respond(approach, memory) } -> std::same_as<ContactForce<2, lanes::Pack<double>>>;
 };
 
-/// stiffness(overlap, reduced radius): tangent stiffness of a contact [N/m], for the time step and for tangents of packings.
+/// stiffness(overlap, reduced radius): tangent stiffness of a contact [N/m], for time steps and tangents of packings.
 template <class Law>
 concept HasContactStiffness = requires(Law const& law) {
   { law.stiffness(0.0, 0.0) } -> std::same_as<ContactStiffness>;  // at an overlap and a reduced radius [m]
@@ -141,7 +141,8 @@ concept RemembersItsShear = Law::inputs.shear || !requires(Law & law) {
   friction_coefficient(law);
 };
 
-/// Force of a contact as a function of its kinematics and memory: an aggregate of parameters with `inputs`, `respond` and `stiffness`.
+/// Force of a contact as a function of its kinematics and memory: an aggregate of parameters with `inputs`, `respond`
+/// and `stiffness`.
 template <class Law>
 concept ContactLaw = std::is_aggregate_v<Law> && NamesContactInputs<Law> && RemembersItsShear<Law> &&
     RespondsToApproach<Law> && RespondsInPacks<Law> && HasContactStiffness<Law>;
@@ -189,8 +190,9 @@ concept HasStoredEnergy = ContactLaw<Law> &&
   { law.stored_energy(approach, memory) } -> std::same_as<double>;
 };
 
-/// interaction_range(): the widest gap [m] across which the law still acts, such as a bond that is pulled. A law that has none acts on
-/// closed contacts only. Write `static_assert(HasInteractionRange<MyLaw>)` after one that has it, which finds a misspelled name.
+/// interaction_range(): the widest gap [m] across which the law still acts, such as a bond that is pulled. A law that
+/// has none acts on closed contacts only. Write `static_assert(HasInteractionRange<MyLaw>)` after one that has it,
+/// which finds a misspelled name.
 template <class Law>
 concept HasInteractionRange = requires(Law const& law) {
   { law.interaction_range() } -> std::convertible_to<double>;
@@ -274,8 +276,8 @@ consteval bool check_contact_law() {
   return ContactLaw<Law>;
 }
 
-/// Compiles the law's response for several contacts at once, before the pair loop does: what cannot be compiled, an `if`
-/// on an overlap for example, is then reported with this short name, by clang with the comment below, and not from within the loop.
+/// Compiles the law's response for several contacts at once, before the pair loop does: what cannot be compiled, an
+/// `if` on an overlap for example, is then reported with this short name, by clang with the comment below.
 template <class Law>
 constexpr bool a_law_responds_to_many_contacts_at_once_so_it_takes_lanes_select_for_if() {
   if constexpr (!is_precompiled<Law>) {

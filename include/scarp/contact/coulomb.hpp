@@ -8,10 +8,10 @@
 
 namespace scarp {
 
-/// Spring with a slider (stick and slip after Coulomb): \f$ f \leftarrow f - k\,\Delta s,\; |f| \le limit \f$; for a force with its slip or a moment with its
-/// roll. A limit of zero empties the spring.
-/// \return work against the slider minus what the spring loses by it, \f$ (f_0 + f_1)(f_{trial} - f_1)/2k \f$ [J]: with the
-/// mean of old and new force as the force of the step the energy balance closes exactly
+/// Spring with a slider (stick and slip after Coulomb): \f$ f \leftarrow f - k\,\Delta s,\; |f| \le limit \f$; for a
+/// force with its slip or a moment with its roll. A limit of zero empties the spring.
+/// \return work against the slider minus what the spring loses by it, \f$ (f_0 + f_1)(f_{trial} - f_1)/2k \f$ [J]: with
+/// the mean of old and new force as the force of the step the energy balance closes exactly
 template <int Dim, class T>
 constexpr T coulomb_slide(Tangential<Dim, T>& force, Tangential<Dim, T> const& slip, T const& stiffness,
                           T const& limit) {

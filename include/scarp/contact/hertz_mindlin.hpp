@@ -56,8 +56,8 @@ inline double damping_ratio_for(double restitution) {
   return std::sqrt(5.0 / 6.0) * low;
 }
 
-/// Kelvin-Voigt contacts: dashpots \f$ c = 2\gamma\sqrt{m^* S} \f$ parallel to both springs of a Hertz contact (form of Tsuji et al. 1992), so that
-/// spheres rebound with one restitution at every speed. The contact never pulls.
+/// Kelvin-Voigt contacts: dashpots \f$ c = 2\gamma\sqrt{m^* S} \f$ parallel to both springs of a Hertz contact (form of
+/// Tsuji et al. 1992), so that spheres rebound with one restitution at every speed. The contact never pulls.
 /// restitution in (0, 1]; the damping ratio follows from it
 struct HertzRestitution {
   static constexpr bool needs_motion = true;  ///< of the dashpots: motion, reduced mass and time step

@@ -12,8 +12,9 @@
 
 namespace scarp {
 
-/// One contact law with parameters of its own for every pair of species, i with j as j with i; grains are `WithSpecies<Shape, Species>`.
-/// Each contact evaluates the laws of all pairs and selects one: for few species, two or three.
+/// One contact law with parameters of its own for every pair of species, i with j as j with i; grains are
+/// `WithSpecies<Shape, Species>`. Each contact evaluates the laws of all pairs and selects one: for few species, two or
+/// three.
 template <ContactLaw Law, int Species>
   requires(Species >= 1 && Law::inputs.species == 0)
 struct LawPerSpecies {
@@ -60,8 +61,8 @@ struct LawPerSpecies {
     return force;
   }
 
-  /// The largest of all pairs at an overlap and a reduced radius [m], which bounds the time step; that of one contact is
-  /// `contact_stiffness`.
+  /// The largest of all pairs at an overlap and a reduced radius [m], which bounds the time step; that of one contact
+  /// is `contact_stiffness`.
   constexpr ContactStiffness stiffness(double overlap, double reduced_radius) const {
     ContactStiffness most;
     for (Law const& law : laws) {

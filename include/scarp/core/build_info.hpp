@@ -19,8 +19,8 @@ struct BuildInfo {
   bool checked_containers = false;         ///< whether those of the standard library check their use (_GLIBCXX_DEBUG)
 };
 
-/// Of the source that calls: sources of one program may have different flags. For sources that link `scarp::precompiled`
-/// see also `library_build`.
+/// Of the source that calls: sources of one program may have different flags. For sources that link
+/// `scarp::precompiled` see also `library_build`.
 consteval BuildInfo build_info() {
   BuildInfo info{};
 #if defined(__clang__)

@@ -18,14 +18,15 @@ constexpr std::string_view plain_name(std::string_view name) {
 }
 }  // namespace detail
 
-/// members(self, visit): calls visit(name, member) for each member that a saved state consists of; a member whose length the
-/// scene fixes is passed as a span. Where there is after_loading(), it is called once the members have been read.
-/// A line in the class writes this function:
+/// members(self, visit): calls visit(name, member) for each member that a saved state consists of; a member whose
+/// length the scene fixes is passed as a span. Where there is after_loading(), it is called once the members have been
+/// read. A line in the class writes this function:
 /// \code
 /// SCARP_MEMBERS(stress, plastic_shear, tangent)   // all data members
 /// SCARP_MEMBERS_EXCEPT((site), awake, own)        // all but those in brackets, which follow from the scene
 /// \endcode
-/// Where it is used, a data member that is in neither list is an error: the type "decomposes into" more elements than are named.
+/// Where it is used, a data member that is in neither list is an error: the type "decomposes into" more elements than
+/// are named.
 template <class T>
 concept Described = requires(T& value, detail::AnyVisit const& visit) {
   T::members(value, visit);
@@ -48,8 +49,8 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
 #define SCARP_DETAIL_THERE(member, ...) static_cast<void>(sizeof(self.member));
 #define SCARP_DETAIL_WITHOUT_BRACKETS(...) __VA_ARGS__
 
-/// For a function `members(self, visit)` written by hand: an error unless these are the names of all data members, in any order.
-/// A structured binding has as many names as its type has members, and two equal names are rejected.
+/// For a function `members(self, visit)` written by hand: an error unless these are the names of all data members, in
+/// any order. A structured binding has as many names as its type has members, and two equal names are rejected.
 #define SCARP_ALL_MEMBERS(...)                                                         \
   [[maybe_unused]] auto& [SCARP_DETAIL_EACH(SCARP_DETAIL_LISTED, __VA_ARGS__)] = self; \
   SCARP_DETAIL_EACH(SCARP_DETAIL_THERE, __VA_ARGS__) static_assert(true)
@@ -62,7 +63,8 @@ concept Described = requires(T& value, detail::AnyVisit const& visit) {
     SCARP_DETAIL_EACH(SCARP_DETAIL_VISITED, __VA_ARGS__) \
   }
 
-/// Defines `members(self, visit)` of a class, see `Described`; `left_out` are, in brackets, the data members that are not saved.
+/// Defines `members(self, visit)` of a class, see `Described`; `left_out` are, in brackets, the data members that are
+/// not saved.
 #define SCARP_MEMBERS_EXCEPT(left_out, ...)                                               \
   template <class Self, class Visit>                                                      \
   static void members(Self& self, [[maybe_unused]] Visit&& visit) {                       \

@@ -104,8 +104,8 @@ Settings const& validated(Settings const& settings) {
 }
 }  // namespace detail
 
-/// The elements of a range as text, each by the same format. A source that calls fmt::join instead compiles all of fmt's
-/// formatting anew.
+/// The elements of a range as text, each by the same format. A source that calls fmt::join instead compiles all of
+/// fmt's formatting anew.
 template <class Range>
 std::string listed(Range const& range, std::string_view between = ", ", std::string_view each = "{}") {
   std::string text;

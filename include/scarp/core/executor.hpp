@@ -25,8 +25,9 @@ struct LyingInMemory {
 
 }  // namespace detail
 
-/// Runs tasks. This class is one process; an heir such as `RankExecutor` is one of several that run the same program, each of which
-/// owns some of the material points. All of them must call together(), agree(), on_first() and share() alike.
+/// Runs tasks. This class is one process; an heir such as `RankExecutor` is one of several that run the same program,
+/// each of which owns some of the material points. All of them must call together(), agree(), on_first() and share()
+/// alike.
 class Executor {
  public:
   virtual ~Executor() = default;
@@ -41,7 +42,8 @@ class Executor {
   virtual void together(std::function<void()> const& work) const { work(); }  ///< What it throws is thrown on all.
   virtual bool agree(bool flag) const { return flag; }                        ///< \return the first process' flag
 
-  /// The first process does a task, which may fetch points; the others serve meanwhile: bytes_of(point) returns the bytes. What one of them throws ends the work of all.
+  /// The first process does a task, which may fetch points; the others serve meanwhile: bytes_of(point) returns the
+  /// bytes. What one of them throws ends the work of all.
   virtual void on_first(std::function<void()> const& task, std::function<std::string(int)> const&) const { task(); }
 
   /// On the first process, within on_first(): what the owner of a point returns.

@@ -12,9 +12,10 @@
 #endif
 
 /// Two versions of scarp in one program must not share functions in silence, nor must sources compiled for registers of
-/// different width or with other containers, in whose types members stand elsewhere: functions of the same name but different body are merged by the
-/// linker, and by the loader between shared libraries, without a word. Every source that includes scarp checks at the start of
-/// the program whether that has happened to it. Names and meaning in this header stay the same for ever.
+/// different width or with other containers, in whose types members stand elsewhere: functions of the same name but
+/// different body are merged by the linker, and by the loader between shared libraries, without a word. Every source
+/// that includes scarp checks at the start of the program whether that has happened to it. Names and meaning in this
+/// header stay the same for ever.
 namespace scarp::detail {
 
 /// Major and minor number as one; versions that differ in the last number alone have the same layouts and may meet.
@@ -31,8 +32,8 @@ consteval int version_number(std::string_view text = version) {
   return 1000 * parts[0] + parts[1];
 }
 
-/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or none that
-/// this header lists, compilers take a vector of 16 bytes apart.
+/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or
+/// none that this header lists, compilers take a vector of 16 bytes apart.
 consteval int bytes_of_register() {
 #if defined(__AVX512F__)
   return 64;
@@ -43,8 +44,8 @@ consteval int bytes_of_register() {
 #endif
 }
 
-/// Version of the headers from which the linked functions come, if several have been merged. Read at run time, so that no
-/// compiler evaluates it.
+/// Version of the headers from which the linked functions come, if several have been merged. Read at run time, so that
+/// no compiler evaluates it.
 [[gnu::noinline]] inline int version_of_functions() {
   int volatile number = version_number();
   return number;

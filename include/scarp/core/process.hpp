@@ -46,8 +46,8 @@ inline double kernel_number(std::string const& file, std::string_view name = {})
   return std::numeric_limits<double>::infinity();
 }
 
-/// The least that the control groups of a process leave, from its own up to the outermost that is seen: of cgroup v2, and of a
-/// controller of v1. Infinite where there is no limit.
+/// The least that the control groups of a process leave, from its own up to the outermost that is seen: of cgroup v2,
+/// and of a controller of v1. Infinite where there is no limit.
 /// groups: lines `number:controllers:/path` as in /proc/self/cgroup; mounted: folder of the groups
 /// left(file, is_second): of one group, with file(name) the path of its files and whether it is of v2
 template <class Left>
@@ -92,8 +92,8 @@ inline double group_processors(std::string const& groups, std::string const& mou
 
 }  // namespace detail
 
-/// Processors that the process may use: those that it is bound to (taskset, batch systems), and no more than the quota of its
-/// control group (containers) pays for, at least one.
+/// Processors that the process may use: those that it is bound to (taskset, batch systems), and no more than the quota
+/// of its control group (containers) pays for, at least one.
 inline int usable_processors() {
   int count = static_cast<int>(std::thread::hardware_concurrency());
 #ifdef CPU_COUNT

@@ -13,8 +13,8 @@ struct CudaError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A card on which packings respond, a block of threads for each. No header of CUDA is needed here: the one source that nvcc compiles
-/// defines it for these types by `SCARP_CUDA_DEVICE`, see cuda/cuda_kernels.hpp.
+/// A card on which packings respond, a block of threads for each. No header of CUDA is needed here: the one source that
+/// nvcc compiles defines it for these types by `SCARP_CUDA_DEVICE`, see cuda/cuda_kernels.hpp.
 /// number: of the card
 /// \tparam Types a `BlockTypes` \tparam Damping a `DampsMotion` that needs no more than the time step
 /// \throws InputError where there is no such card; CudaError for what CUDA reports, as all members do

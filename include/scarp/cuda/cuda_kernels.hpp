@@ -95,7 +95,8 @@ class CudaMemory : public std::enable_shared_from_this<CudaMemory> {
 
 }  // namespace detail
 
-/// Packings on a card, with a kernel for each of these rooms, smallest first. Calls of several threads run side by side.
+/// Packings on a card, with a kernel for each of these rooms, smallest first. Calls of several threads run side by
+/// side.
 template <class Types, class Damping, BlockSize... Rooms>
 class CudaDevice final : public BlockDevice<Types, Damping> {
   using Base = BlockDevice<Types, Damping>;
@@ -237,7 +238,8 @@ class CudaDevice final : public BlockDevice<Types, Damping> {
 
 }  // namespace scarp
 
-/// In the source that nvcc compiles: defines `cuda_device<TYPES, DAMPING>` with kernels for rooms, smallest first, such as
+/// In the source that nvcc compiles: defines `cuda_device<TYPES, DAMPING>` with kernels for rooms, smallest first, such
+/// as
 /// \code
 /// SCARP_CUDA_DEVICE(Types, scarp::LocalDamping, scarp::BlockSize{100, 336}, scarp::BlockSize{400, 1216})
 /// \endcode

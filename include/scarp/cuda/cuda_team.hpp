@@ -33,7 +33,8 @@ class CudaTeam {
   __device__ void barrier() const { __syncthreads(); }                        ///< Returns when all have called it.
   __device__ int take(int& counter) const { return atomicAdd(&counter, 1); }  ///< The former value.
 
-  /// The largest of all threads' numbers. Slots take turns, so that the next call's writes meet no reader of this one's.
+  /// The largest of all threads' numbers. Slots take turns, so that the next call's writes meet no reader of this
+  /// one's.
   template <std::size_t Count>
   __device__ std::array<std::uint64_t, Count> largest(std::array<std::uint64_t, Count> const& bits) const {
     static_assert(Count <= 2);

@@ -20,11 +20,11 @@ struct [[nodiscard]] BondedPacking {
   std::size_t bonds = 0;  ///< contacts that were bonded
 };
 
-/// The same grains under a law with bonds: every contact that touches is bonded, and every gap up to `gap` [m] too. Grains
-/// are at rest, contacts retain their shear forces and moments, so that a packing in balance stays so where
+/// The same grains under a law with bonds: every contact that touches is bonded, and every gap up to `gap` [m] too.
+/// Grains are at rest, contacts retain their shear forces and moments, so that a packing in balance stays so where
 /// both laws have equal springs and no gap is bonded: a bond across a gap pulls.
-/// \throws InputError for a gap that is negative or beyond the law's range, where it breaks at once, for a packing without
-/// grains, and for a law that `require_consistent` rejects
+/// \throws InputError for a gap that is negative or beyond the law's range, where it breaks at once, for a packing
+/// without grains, and for a law that `require_consistent` rejects
 template <Bonds Law, class PackingType>
 BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> bonded(
     PackingType grains, typename PackingType::Law const& former, Law const& law, double gap = 0.0) {

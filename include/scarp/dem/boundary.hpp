@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Constraints of a boundary on grains: hold their centres or spins on the cell's mean motion, without fluctuation. What is held
-/// has no net force, also in the unbalanced ratio; the stress is of all contacts.
+/// Constraints of a boundary on grains: hold their centres or spins on the cell's mean motion, without fluctuation.
+/// What is held has no net force, also in the unbalanced ratio; the stress is of all contacts.
 /// \tparam PackingType a `Packing`
 template <class PackingType>
 class GrainHolds {
@@ -48,7 +48,8 @@ class GrainHolds {
   Scalar* forces_;
 };
 
-/// constrain(packing, holds): once a step, after the contacts and before the grains move; calls `holds` for those that are not free.
+/// constrain(packing, holds): once a step, after the contacts and before the grains move; calls `holds` for those that
+/// are not free.
 template <class Boundary, class PackingType>
 concept ConstrainsGrains = requires(Boundary const& boundary, PackingType const& packing,
                                     GrainHolds<PackingType> const& holds) {

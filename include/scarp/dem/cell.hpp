@@ -15,8 +15,9 @@ double min_height(Tensor<Dim> const& cell) {
   return 1.0 / std::sqrt(normals.rowwise().squaredNorm().maxCoeff());
 }
 
-/// Integer matrix U of determinant 1 such that the columns of cell x U are pairwise reduced: no base vector gets shorter by
-/// adding another one. In 2D this is Lagrange's and Gauss's reduction. A cell that needs none gives the identity.
+/// Integer matrix U of determinant 1 such that the columns of cell x U are pairwise reduced: no base vector gets
+/// shorter by adding another one. In 2D this is Lagrange's and Gauss's reduction. A cell that needs none gives the
+/// identity.
 template <int Dim>
 Eigen::Matrix<int, Dim, Dim> lattice_reduction(Tensor<Dim> cell) {
   Eigen::Matrix<int, Dim, Dim> change = Eigen::Matrix<int, Dim, Dim>::Identity();

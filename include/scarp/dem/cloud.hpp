@@ -13,7 +13,8 @@
 
 namespace scarp {
 
-/// sample(random): parameters of one grain [m] of the shape that it names; or sample(random, count) of so many, which depend on each other.
+/// sample(random): parameters of one grain [m] of the shape that it names; or sample(random, count) of so many, which
+/// depend on each other.
 template <class Grading>
 concept SamplesGrains = ParticleShape<typename Grading::Shape> &&(
     requires(Grading const& grading, Random& random) {
@@ -23,10 +24,10 @@ concept SamplesGrains = ParticleShape<typename Grading::Shape> &&(
       { grading.sample(random, 1) } -> std::same_as<std::vector<SizeOf<typename Grading::Shape>>>;
     });
 
-/// Random sequential insertion: a loose cloud in a square or cubic cell, the start of every preparation: grains are placed one by one, largest
-/// first, at random without touching (bounding circles or spheres), plane grains with their axes evenly spread over all
-/// directions. Random sequential addition jams near a filled share of 0.547 for equal discs and 0.384 for equal spheres; the
-/// defaults stay well below.
+/// Random sequential insertion: a loose cloud in a square or cubic cell, the start of every preparation: grains are
+/// placed one by one, largest first, at random without touching (bounding circles or spheres), plane grains with their
+/// axes evenly spread over all directions. Random sequential addition jams near a filled share of 0.547 for equal discs
+/// and 0.384 for equal spheres; the defaults stay well below.
 template <SamplesGrains Grading>
 struct Cloud {
   using Shape = typename Grading::Shape;  ///< of all grains

@@ -58,7 +58,8 @@ constexpr std::array<T, 3> rolling_part(std::array<T, 3> const& turn, std::array
 /// rotation about the normal, is laid into the tangent plane and keeps its size. In the plane the number stays.
 template <class T>
 constexpr void carry_to_frame(T&, T const&, std::array<T, 2> const&) {}
-/// In space: turns the stored vector by the twist of `mean_turn` [rad], lays it into the tangent plane and restores its size.
+/// In space: turns the stored vector by the twist of `mean_turn` [rad], lays it into the tangent plane and restores its
+/// size.
 template <class T>
 constexpr void carry_to_frame(std::array<T, 3>& remembered, std::array<T, 3> const& mean_turn,
                               std::array<T, 3> const& normal) {

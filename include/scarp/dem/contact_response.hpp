@@ -46,7 +46,8 @@ struct PairForces {
   T dissipated;                   ///< [J]
 };
 
-/// Rotation of a grain during the last move: grains turn with the cell, and their spin is a fluctuation about the affine one.
+/// Rotation of a grain during the last move: grains turn with the cell, and their spin is a fluctuation about the
+/// affine one.
 template <int Dim, class T>
 SCARP_HOST_DEVICE constexpr Turning<Dim, T> turn_of(Turning<Dim, T> const& spin, CellMove<Dim, T> const& move) {
   return sum(scaled(spin, move.duration), move.turn);

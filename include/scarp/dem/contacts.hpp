@@ -57,8 +57,8 @@ ContactMemory<Shape::dim, double> contact_memory(VerletList<Shape, Law, Scalar> 
   return memory;
 }
 
-/// Calls visit(Contact) for every near pair, touching or not, in the order of the list. The packing is not changed: forces
-/// follow from present positions and memories, without slip.
+/// Calls visit(Contact) for every near pair, touching or not, in the order of the list. The packing is not changed:
+/// forces follow from present positions and memories, without slip.
 template <class PackingType, class Visitor>
 void for_each_near_pair(PackingType const& packing, typename PackingType::Law const& law, Visitor&& visit) {
   using Shape = typename PackingType::Shape;

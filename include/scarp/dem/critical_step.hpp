@@ -34,7 +34,8 @@ constexpr std::array<Point<Dim, double>, static_cast<std::size_t>(Dim)> contact_
   return axes;
 }
 
-/// Dashpots parallel to the springs of a contact, \f$ c = 2 \xi \sqrt{m^* S} \f$ [N s/m]; a spring against rolling has none.
+/// Dashpots parallel to the springs of a contact, \f$ c = 2 \xi \sqrt{m^* S} \f$ [N s/m]; a spring against rolling has
+/// none.
 constexpr ContactStiffness dashpots_of(ContactStiffness const& stiffness, double damping_ratio, double reduced_mass) {
   auto const beside = [&](double spring) { return 2.0 * damping_ratio * std::sqrt(reduced_mass * spring); };
   return {.normal = beside(stiffness.normal), .tangential = beside(stiffness.tangential)};
@@ -46,8 +47,8 @@ double deepest_overlap(PackingType const& packing, Contact<PackingType::dim> con
   return std::max(contact.touch.overlap, 0.0) + std::max(packing.pairs.skin, 0.0);
 }
 
-/// Largest eigenvalue of a contact's stiffness over mobility [1/s2]: its springs along the normal and the tangents act on
-/// centres and spins through the arms; a spring against rolling at most adds its own.
+/// Largest eigenvalue of a contact's stiffness over mobility [1/s2]: its springs along the normal and the tangents act
+/// on centres and spins through the arms; a spring against rolling at most adds its own.
 /// mobilities: centre of both grains together [1/kg], spin of each [1/(kg m2)]
 template <int Dim>
 double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffness, double centres, double spin_first,
@@ -80,16 +81,16 @@ double stiffest_mode(Contact<Dim> const& contact, ContactStiffness const& stiffn
 
 }  // namespace detail
 
-/// Share of `critical_step` that is used as the time step. The bound is sharp in rows of grains, so that this is the share of the
-/// true limit there; in random packings it is 0.51 to 0.59 of it.
+/// Share of `critical_step` that is used as the time step. The bound is sharp in rows of grains, so that this is the
+/// share of the true limit there; in random packings it is 0.51 to 0.59 of it.
 inline constexpr double default_time_step_share = 0.78;
 
-/// Largest stable time step [s] of the explicit scheme, \f$ \Delta t = 2/\omega_{max} \f$, as a lower bound: every grain's
-/// mass and inertia is shared out among its near pairs and the stiffest single pair, spin included, bounds the whole packing
-/// (element eigenvalue bound of Irons and Treharne 1971). Pairs that may soon touch count as closed, all as deep as they can
-/// get before the list is made anew. Without any pair, the step of the lightest grain between two others.
-/// Dashpots shorten the step by \f$ \sqrt{1 + \zeta^2} - \zeta \f$ with the damping ratio \f$ \zeta \f$ of the pair's mode, which
-/// shared masses and spin make larger than that of the law.
+/// Largest stable time step [s] of the explicit scheme, \f$ \Delta t = 2/\omega_{max} \f$, as a lower bound: every
+/// grain's mass and inertia is shared out among its near pairs and the stiffest single pair, spin included, bounds the
+/// whole packing (element eigenvalue bound of Irons and Treharne 1971). Pairs that may soon touch count as closed, all
+/// as deep as they can get before the list is made anew. Without any pair, the step of the lightest grain between two
+/// others. Dashpots shorten the step by \f$ \sqrt{1 + \zeta^2} - \zeta \f$ with the damping ratio \f$ \zeta \f$ of the
+/// pair's mode, which shared masses and spin make larger than that of the law.
 template <class PackingType>
 double critical_step(PackingType const& packing, typename PackingType::Law const& law) {
   constexpr int dim = PackingType::dim;

@@ -15,8 +15,9 @@ SCARP_NAMED_MEMBER(before_move)
 
 namespace scarp {
 
-/// next_velocity(velocity, force, mobility): velocity of a grain after a step with a net force, or its spin after one with
-/// a net torque, one component; mobility = time step / inertia. Evaluated for packs of as many grains as a register holds.
+/// next_velocity(velocity, force, mobility): velocity of a grain after a step with a net force, or its spin after one
+/// with a net torque, one component; mobility = time step / inertia. Evaluated for packs of as many grains as a
+/// register holds.
 template <class Damping>
 concept DampsMotion = requires(Damping const& damping, double const& one, lanes::Pack<double> const& several) {
   { damping.next_velocity(one, one, one) } -> std::same_as<double>;
@@ -40,15 +41,17 @@ struct NetForces {
 };
 
 /// before_move(packing, forces, time_step [s]): optional, once a step, before `next_velocity` of all grains. A damping
-/// learns here the time step, a relaxation what it needs of the whole packing; its state belongs to the stepper, not to the packing.
+/// learns here the time step, a relaxation what it needs of the whole packing; its state belongs to the stepper, not to
+/// the packing.
 template <class Damping, class PackingType>
 concept SeesAllGrains = requires(Damping& damping, PackingType const& packing, NetForces<PackingType> const& forces) {
   damping.before_move(packing, forces, double{});
 };
 
-/// Cundall's local damping: the net force loses the share `factor` where it does work and gains it where it resists. Grains
-/// that touch nothing have no net force and would never come to rest, so all fluctuation velocities also decay,
-/// \f$ \dot v = -c\,v,\; c = -\ln(1 - drag) / (0.78\,\Delta t_{crit}) \f$: a rate [1/s] of packing and law, whatever the time step.
+/// Cundall's local damping: the net force loses the share `factor` where it does work and gains it where it resists.
+/// Grains that touch nothing have no net force and would never come to rest, so all fluctuation velocities also decay,
+/// \f$ \dot v = -c\,v,\; c = -\ln(1 - drag) / (0.78\,\Delta t_{crit}) \f$: a rate [1/s] of packing and law, whatever
+/// the time step.
 struct LocalDamping {
   double factor = 0.2;       ///< share of the net force, 0 to 1
   double drag = 1e-3;        ///< share that velocities lose in `default_time_step_share` of the critical step

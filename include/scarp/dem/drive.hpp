@@ -10,13 +10,13 @@
 
 namespace scarp {
 
-/// Gains of the servo control, how a cell responds to a missing stress: it strains in proportion, and where a strain is prescribed as well also at a
-/// steady rate that is learned on the way, so that the held stress does not lag behind.
+/// Gains of the servo control, how a cell responds to a missing stress: it strains in proportion, and where a strain is
+/// prescribed as well also at a steady rate that is learned on the way, so that the held stress does not lag behind.
 struct ServoGains {
   double fastest = 1e-4;         ///< largest strain per step of a held stress
   double response_steps = 10.0;  ///< a missing stress is made up in about so many steps
-  /// Response steps after which the steady rate has learned; 16 damps the loop critically where the packing has a quarter of
-  /// its springs' modulus.
+  /// Response steps after which the steady rate has learned; 16 damps the loop critically where the packing has a
+  /// quarter of its springs' modulus.
   double learning_steps = 16.0;
 
   /// \throws InputError
@@ -26,8 +26,9 @@ struct ServoGains {
     require_positive("learning steps of a held stress", learning_steps);
   }
 
-  /// Cell strain in one step; `modulus` [Pa] is a stiffness scale of the packing, `steady` holds the learned rates, one for
-  /// each control. A packing with too few contacts to be stiff and hardly any pressure is compressed at the fastest rate.
+  /// Cell strain in one step; `modulus` [Pa] is a stiffness scale of the packing, `steady` holds the learned rates, one
+  /// for each control. A packing with too few contacts to be stiff and hardly any pressure is compressed at the fastest
+  /// rate.
   template <int Dim>
   Tensor<Dim> strain_step(Loading<Dim> const& loading, Tensor<Dim> const& stress, double modulus, bool jammed,
                           std::vector<double>& steady) const {
@@ -59,7 +60,8 @@ double depth_of_contacts(PackingType const& packing) {
   return PackingType::dim == 2 ? packing.population->thickness() : 2.0 * packing.population->largest_radius();
 }
 
-/// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on it.
+/// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on
+/// it.
 template <class PackingType>
 ContactStiffness slight_springs(PackingType const& packing, typename PackingType::Law const& law) {
   require_population(packing);
@@ -75,7 +77,8 @@ double spring_modulus(PackingType const& packing, typename PackingType::Law cons
   return detail::slight_springs(packing, law).normal / detail::depth_of_contacts(packing);
 }
 
-/// Viscosity scale [Pa s] of a law's dashpots, 0 without: over the time step it is their stiffness against a strain in one step.
+/// Viscosity scale [Pa s] of a law's dashpots, 0 without: over the time step it is their stiffness against a strain in
+/// one step.
 template <class PackingType>
 double dashpot_modulus(PackingType const& packing, typename PackingType::Law const& law) {
   double const ratio = damping_ratio_of(law);
@@ -108,7 +111,8 @@ class CellDriver {
         fewest_contacts_(0.5 * (dim + 1) * static_cast<double>(packing.grain_count())) {}
 
   /// One DEM step with the cell strain that the loading and the stress before it require.
-  /// \return not_converged / unreachable for a target no packing can carry, failed / not_finite, or what the stepper reports
+  /// \return not_converged / unreachable for a target no packing can carry, failed / not_finite, or what the stepper
+  /// reports
   template <class Stepper>
   Verdict step(Stepper& stepper) {
     if (!loading_.reachable(Bonds<Law>)) return {Status::not_converged, Reason::unreachable};

@@ -9,9 +9,10 @@ namespace scarp {
 
 /// Fast inertial relaxation engine [E. Bitzek et al., Phys. Rev. Lett. 97 (2006) 170201]: while the net forces do work,
 /// velocities turn towards the accelerations; once they do not, all grains stop.
-/// \f$ P = \sum F \cdot v + T \cdot \omega > 0: v \leftarrow (1-a)\,v + a \frac{|v|}{|F|} \frac{F}{m} \f$, else v = 0; then leap-frog
-/// Norms are weighted, \f$ |v|^2 = \sum m v^2 + I \omega^2,\; |F|^2 = \sum F^2/m + T^2/I \f$, so that translation and rotation
-/// have one unit and mixing adds no kinetic energy. The time step is constant, since the contacts' springs make it critical.
+/// \f$ P = \sum F \cdot v + T \cdot \omega > 0: v \leftarrow (1-a)\,v + a \frac{|v|}{|F|} \frac{F}{m} \f$, else v = 0;
+/// then leap-frog Norms are weighted, \f$ |v|^2 = \sum m v^2 + I \omega^2,\; |F|^2 = \sum F^2/m + T^2/I \f$, so that
+/// translation and rotation have one unit and mixing adds no kinetic energy. The time step is constant, since the
+/// contacts' springs make it critical.
 struct Fire {
   double mixing = 0.1;  ///< a after a stop
   double decay = 0.99;  ///< of a, in every step

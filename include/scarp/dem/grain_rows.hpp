@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Where a grain's data stand in its row: position, velocity, spin, pose of the part, where the law needs motion also the
-/// inverse mass, padding. A pair's data then come from one or two cache lines each.
+/// Where a grain's data stand in its row: position, velocity, spin, pose of the part, where the law needs motion also
+/// the inverse mass, padding. A pair's data then come from one or two cache lines each.
 template <ParticleShape Shape, ContactLaw Law>
 struct RowLayout {
   static constexpr auto axes = static_cast<std::size_t>(Shape::dim);              ///< numbers of a position
@@ -76,8 +76,8 @@ void fill_grain_rows(PackingType const& packing, typename PackingType::Scalar* r
   }
 }
 
-/// Writes the rows of ghosts behind those of the grains, and last one that is far from all: the partner of lanes without a
-/// pair. \return number of the last row
+/// Writes the rows of ghosts behind those of the grains, and last one that is far from all: the partner of lanes
+/// without a pair. \return number of the last row
 template <class PackingType>
 std::size_t fill_ghost_rows(PackingType const& packing, typename PackingType::Scalar* rows) {
   using Scalar = typename PackingType::Scalar;

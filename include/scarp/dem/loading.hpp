@@ -10,8 +10,8 @@
 
 namespace scarp {
 
-/// Holds a stress by straining the cell along a direction: \f$ \sigma : D / (D : D) = \f$ target. One component with the unit
-/// tensor of that component as D, the mean stress with the identity.
+/// Holds a stress by straining the cell along a direction: \f$ \sigma : D / (D : D) = \f$ target. One component with
+/// the unit tensor of that component as D, the mean stress with the identity.
 template <int Dim>
 struct StressControl {
   Tensor<Dim> direction = Tensor<Dim>::Zero();  ///< D, symmetric
@@ -37,8 +37,9 @@ StressControl<Dim> component_control(int component, double target) {
   return {from_voigt_stress<Dim>(unit), target};
 }
 
-/// What a cell does in every step: a displacement gradient that is prescribed, and stresses that are held by further strains
-/// along directions that are orthogonal to each other. Held components of the prescribed gradient are to be zero.
+/// What a cell does in every step: a displacement gradient that is prescribed, and stresses that are held by further
+/// strains along directions that are orthogonal to each other. Held components of the prescribed gradient are to be
+/// zero.
 template <int Dim>
 struct Loading {
   Tensor<Dim> gradient_per_step = Tensor<Dim>::Zero();  ///< prescribed
@@ -51,7 +52,8 @@ struct Loading {
     return loading;
   }
 
-  /// \throws InputError for directions that hold nothing or the same twice, and for a prescribed strain that is no number
+  /// \throws InputError for directions that hold nothing or the same twice, and for a prescribed strain that is no
+  /// number
   void validate() const {
     if (!gradient_per_step.allFinite())
       reject("the prescribed displacement gradient of a step has components that are no numbers: give ordinary ones");
@@ -108,8 +110,8 @@ Loading<Dim> oedometer(double rate) {
   return loading;
 }
 
-/// Compression along the last axis at constant lateral stress: biaxial in the plane, triaxial in space. rate: strain per step;
-/// lateral_pressure [Pa], positive in compression
+/// Compression along the last axis at constant lateral stress: biaxial in the plane, triaxial in space. rate: strain
+/// per step; lateral_pressure [Pa], positive in compression
 template <int Dim>
 Loading<Dim> drained_compression(double rate, double lateral_pressure) {
   Loading<Dim> loading = oedometer<Dim>(rate);

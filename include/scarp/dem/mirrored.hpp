@@ -10,11 +10,12 @@
 
 namespace scarp {
 
-/// A packing in the mirror across the plane with this normal, x -> -x if none is given, with its contacts' memory. It responds to a
-/// mirrored strain with the mirrored stress: across an axis bit by bit, until lists of pairs are made anew, whose order is another, or a grain
-/// at rest is met, whose +0 damping treats as forwards; across another plane as far as the damping, which acts on components, allows. Where a packing
-/// is by accident stiffer to one side, its image is stiffer to the other. normal: of length 1. For spheres, and for plane shapes that are symmetric
-/// about the axis of their orientation and the one across, as ellipses are; the image of a clump is another clump.
+/// A packing in the mirror across the plane with this normal, x -> -x if none is given, with its contacts' memory. It
+/// responds to a mirrored strain with the mirrored stress: across an axis bit by bit, until lists of pairs are made
+/// anew, whose order is another, or a grain at rest is met, whose +0 damping treats as forwards; across another plane
+/// as far as the damping, which acts on components, allows. Where a packing is by accident stiffer to one side, its
+/// image is stiffer to the other. normal: of length 1. For spheres, and for plane shapes that are symmetric about the
+/// axis of their orientation and the one across, as ellipses are; the image of a clump is another clump.
 template <class PackingType>
   requires((PackingType::dim == 2 || PackingType::Shape::orientation_count == 0) &&
            part_count<typename PackingType::Shape>() == 1)

@@ -17,8 +17,8 @@ namespace scarp {
 
 namespace detail {
 
-/// A periodic pair of rows named once: the first has the smaller number, or the shift of the second is lexicographically
-/// positive.
+/// A periodic pair of rows named once: the first has the smaller number, or the shift of the second is
+/// lexicographically positive.
 template <int Dim>
 struct PairName {
   std::int32_t first;
@@ -35,8 +35,8 @@ struct FormerPair {
   bool swapped;
 };
 
-/// A pair of the new list by its rows; those of `second` number grains first and then images, `former` is null for a pair that was
-/// not listed before.
+/// A pair of the new list by its rows; those of `second` number grains first and then images, `former` is null for a
+/// pair that was not listed before.
 template <int Dim>
 struct NearPair {
   std::int32_t first;
@@ -168,8 +168,8 @@ std::optional<std::vector<NearPair<Shape::dim>>> find_near_pairs(Population<Shap
   return found;
 }
 
-/// The pairs in another order: neighbours in the list have different grains, so that the pair loop need not wait for one
-/// pair's forces before it can add the next one's. Within groups, whose grains stay in the nearest caches.
+/// The pairs in another order: neighbours in the list have different grains, so that the pair loop need not wait for
+/// one pair's forces before it can add the next one's. Within groups, whose grains stay in the nearest caches.
 template <int Dim>
 std::vector<NearPair<Dim>> interleaved(std::vector<NearPair<Dim>> const& sorted) {
   constexpr std::size_t strands = 16;  // at least the lanes of a pack
@@ -243,8 +243,8 @@ void write_memory(VerletList<Shape, Law, Scalar>& next, std::vector<NearPair<Sha
 
 }  // namespace detail
 
-/// Whether the cell, with its base vectors reduced, is wider than the largest grain and the reach of the search, so that
-/// no image further away than the next cell's can come near.
+/// Whether the cell, with its base vectors reduced, is wider than the largest grain and the reach of the search, so
+/// that no image further away than the next cell's can come near.
 template <class PackingType>
 bool cell_is_wide_enough(PackingType const& packing, double reach) {
   constexpr int dim = PackingType::dim;
@@ -253,12 +253,13 @@ bool cell_is_wide_enough(PackingType const& packing, double reach) {
   return min_height<dim>(reduced) > 2.0 * packing.population->largest_radius() + reach;
 }
 
-/// Makes the Verlet list: the pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and ghosts), carrying
-/// over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin; `law_reach` is the gap
-/// across which the contact law acts. Reduces the cell and wraps positions. Deterministic; a packing whose list fails stays as it was.
+/// Makes the Verlet list: the pairs whose gap is below `skin` + `law_reach` [m] (nanoflann k-d tree over grains and
+/// ghosts), carrying over normals and memories of pairs that stay. The list is good until gaps have shrunk by the skin;
+/// `law_reach` is the gap across which the contact law acts. Reduces the cell and wraps positions. Deterministic; a
+/// packing whose list fails stays as it was.
 /// \return failed / cell_collapsed for a cell too thin for its grains, failed / not_finite for positions that are no
-/// numbers, failed / lost_grain for one that is more than a million cells away, failed / unconverged_normal where the shape
-/// does not find how two grains touch
+/// numbers, failed / lost_grain for one that is more than a million cells away, failed / unconverged_normal where the
+/// shape does not find how two grains touch
 template <class PackingType>
 Verdict rebuild_pairs(PackingType& packing, double skin, double law_reach = 0.0) {
   constexpr int dim = PackingType::dim;

@@ -63,8 +63,8 @@ void require_valid_packing(PackingType const& packing) {
 
 namespace scarp {
 
-/// What a list of near pairs and its critical step were made from in addition to the grains' places. With another law, or with
-/// grains of another mass, the list is made anew.
+/// What a list of near pairs and its critical step were made from in addition to the grains' places. With another law,
+/// or with grains of another mass, the list is made anew.
 struct ListBasis {
   double reach = 0.0;                  ///< gap across which the law acts [m]
   double damping_ratio = 0.0;          ///< of the law's dashpots
@@ -86,8 +86,8 @@ struct ListBasis {
 };
 
 /// Pairs of grains closer than a skin (Verlet list), each once. Numbers are *rows*: part p of grain i has row
-/// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row `ghost_owner[g]`
-/// moved by cell x `ghost_shift[g]`. What a shape or law has no memory of is not stored.
+/// i x part_count + p. A partner across the cell's boundary is a *ghost*: row row_count + g stands for row
+/// `ghost_owner[g]` moved by cell x `ghost_shift[g]`. What a shape or law has no memory of is not stored.
 /// \tparam Shape a `ParticleShape`
 /// \tparam Law a `ContactLaw`
 /// \tparam Scalar float or double
@@ -179,7 +179,8 @@ struct Packing {
   /// \throws InputError for numbers that no packing has
   void after_loading() const { detail::require_valid_packing(*this); }
 
-  /// No velocities and no last move, as of grains that were just placed. Grains that have moved are stopped by TimeStepper.
+  /// No velocities and no last move, as of grains that were just placed. Grains that have moved are stopped by
+  /// TimeStepper.
   void rest() {
     velocity.resize(grain_count());
     spin.resize(grain_count());
@@ -195,8 +196,8 @@ void require_population(PackingType const& packing) {
   if (!packing.population) reject("a packing without grains was to be moved (it has no population): make or load one");
 }
 
-/// What a list with this skin [m] follows from: the springs, in a weighted sum over pairs of species, of smallest and of largest grains at the skin, which is how deep
-/// a near pair may get at least, and at twice the skin.
+/// What a list with this skin [m] follows from: the springs, in a weighted sum over pairs of species, of smallest and
+/// of largest grains at the skin, which is how deep a near pair may get at least, and at twice the skin.
 template <class PackingType>
 ListBasis list_basis(PackingType const& packing, typename PackingType::Law const& law, double skin) {
   auto const& population = *packing.population;

@@ -35,8 +35,8 @@ class PairResponse {
     }
   }
 
-  /// Where the first `used` pairs of the block touch, which are the pairs `start` and following of the list; searched from
-  /// their last normals. A pass of its own, so that the one for the law has registers enough.
+  /// Where the first `used` pairs of the block touch, which are the pairs `start` and following of the list; searched
+  /// from their last normals. A pass of its own, so that the one for the law has registers enough.
   void search(Block& block, std::size_t used, std::size_t start) {
     Lanes normal_error{};
     Lanes deepest{};
@@ -123,8 +123,8 @@ class PairResponse {
     }
   }
 
-  /// Searches the touch of those pairs anew for which one step from the last normal is not enough. Rare, hence out of the
-  /// loop.
+  /// Searches the touch of those pairs anew for which one step from the last normal is not enough. Rare, hence out of
+  /// the loop.
   [[gnu::noinline, gnu::cold]] void find_normals(Block& block, std::size_t used, std::size_t start) {
     auto const read = [&]<std::size_t Count>(std::size_t field, std::size_t pair, std::array<double, Count>& values) {
       for (std::size_t k = 0; k < Count; ++k) values[k] = static_cast<double>(block.fields[field + k][pair]);
@@ -173,10 +173,10 @@ class PairResponse {
 
 }  // namespace detail
 
-/// Forces of all near pairs at the present positions, and the update of the contacts' memory by the packing's last move,
-/// unless it was applied before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
-/// Pairs go through in blocks: gather the grains' data, evaluate the law, scatter the forces. Each of the three loops is free of the
-/// others' latencies. Flattened, since shape and law must be inlined into the loop.
+/// Forces of all near pairs at the present positions, and the update of the contacts' memory by the packing's last
+/// move, unless it was applied before. Afterwards `scratch.forces` begins with a row (force, torque) for each grain.
+/// Pairs go through in blocks: gather the grains' data, evaluate the law, scatter the forces. Each of the three loops
+/// is free of the others' latencies. Flattened, since shape and law must be inlined into the loop.
 template <Observe what, class PackingType, class Law>
 [[gnu::flatten]] ContactSums<PackingType::dim> pair_forces(PackingType& packing, Law const& law,
                                                            PairScratch<typename PackingType::Scalar>& scratch) {

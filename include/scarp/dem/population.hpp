@@ -28,8 +28,8 @@ class Population {
   using Size = std::array<double, static_cast<std::size_t>(Shape::size_count)>;  ///< parameters of one grain [m]
 
   /// density [kg/m3]
-  /// \throws InputError on an empty list, on sizes that are not finite and positive, on those that the shape rejects, and for a shape whose
-  /// area, inertia or bounds are not those of its support function
+  /// \throws InputError on an empty list, on sizes that are not finite and positive, on those that the shape rejects,
+  /// and for a shape whose area, inertia or bounds are not those of its support function
   Population(std::vector<Size> const& sizes, double density, double thickness)
       : density_(density), thickness_(thickness) {
     require_positive("grain density", density);
@@ -73,7 +73,8 @@ class Population {
       largest_normal_change_ = std::min(largest_normal_change_, 0.01 / (0.5 + eccentricity / width));
       largest_eccentricity_ = std::max(largest_eccentricity_, eccentricity);
     }
-    // In a loop of its own: a product that is used twice is fused with no sum, which would change an inertia's last digit.
+    // In a loop of its own: a product that is used twice is fused with no sum, which would change an inertia's last
+    // digit.
     if constexpr (HasInnerRadius<Shape>) {
       std::array<double, static_cast<std::size_t>(Shape::orientation_count)> axis{};
       if (!axis.empty()) axis.front() = 1.0;
@@ -107,12 +108,12 @@ class Population {
   /// Greatest change of a grain's support function per radian [m].
   double largest_eccentricity() const { return largest_eccentricity_; }
 
-  /// Up to this angle [rad] one Newton step for the normal of a contact leaves an error of the overlap below 1e-6 of the
-  /// grains' size: it grows with the cube of the angle and with how fast curvature changes.
+  /// Up to this angle [rad] one Newton step for the normal of a contact leaves an error of the overlap below 1e-6 of
+  /// the grains' size: it grows with the cube of the angle and with how fast curvature changes.
   double largest_normal_change() const { return largest_normal_change_; }
 
-  /// Up to this overlap [m] of any two grains a normal at which it is stationary is that of the least overlap. Infinite for
-  /// shapes without a bound.
+  /// Up to this overlap [m] of any two grains a normal at which it is stationary is that of the least overlap. Infinite
+  /// for shapes without a bound.
   double unique_minimum_depth() const { return unique_minimum_depth_; }
 
   /// Parameters of a grain [m] as stored, in double precision.
@@ -130,8 +131,8 @@ class Population {
   /// [1/(kg m2)]
   Scalar const* inverse_inertia() const { return inverse_inertia_.column(0); }
 
-  /// Calls visit(name, member) for what the rest follows from, and for the content, which distinguishes shapes that have
-  /// equally many sizes.
+  /// Calls visit(name, member) for what the rest follows from, and for the content, which distinguishes shapes that
+  /// have equally many sizes.
   template <class Visit>
   static void members(Population const& self, Visit&& visit) {
     SCARP_ALL_MEMBERS(density_, thickness_, content_, mass_, smallest_radius_, largest_radius_, largest_eccentricity_,

@@ -63,8 +63,8 @@ struct IsotropicPreparation {
   }
 };
 
-/// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero, shear
-/// stress zero, vertical stress (last axis) through a list of targets. A copy is stored at each.
+/// One-dimensional compression of one packing, as under the growing overburden of level ground: lateral strain zero,
+/// shear stress zero, vertical stress (last axis) through a list of targets. A copy is stored at each.
 struct OneDimensionalCompression {
   /// How each target is approached and what counts as reached.
   Servo servo{.feedback = {.fastest = 1e-5}, .stress_tolerance = 1e-3, .unbalanced_tolerance = 1e-4};

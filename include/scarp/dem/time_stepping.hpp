@@ -42,8 +42,8 @@ inline constexpr bool kernel_is_precompiled =
 }  // namespace detail
 
 /// Moves a packing explicitly (leap-frog) while its cell follows a velocity gradient; a damping or relaxation gives the
-/// velocities, a boundary holds grains on the cell's motion. Holds the scratch memory, so one stepper serves many packings in
-/// turn but only one thread.
+/// velocities, a boundary holds grains on the cell's motion. Holds the scratch memory, so one stepper serves many
+/// packings in turn but only one thread.
 /// \tparam PackingOf a `Packing`
 /// \tparam Damping a `DampsMotion`, with the whole packing in view a `SeesAllGrains`
 /// \tparam Boundary a `ConstrainsGrains`
@@ -63,8 +63,8 @@ class TimeStepper {
 
   Damping damping{};                          ///< what gives the velocities
   [[no_unique_address]] Boundary boundary{};  ///< what holds grains
-  /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one is
-  /// rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
+  /// Gap up to which pairs are listed, as a share of the largest radius: a wider skin lists more pairs, a thinner one
+  /// is rebuilt more often. Of the law only its reach comes on top, so that laws that act in touch share one list.
   double skin_ratio = 0.2;
 
   double time_step_share = default_time_step_share;  ///< of the lower bound of the critical step
@@ -77,10 +77,12 @@ class TimeStepper {
     require_positive("share of the critical time step", time_step_share);
   }
 
-  /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and the
-  /// critical step with it.
-  /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary ones
-  /// \throws InputError for a negative friction, and for a law that `require_consistent` rejects when the list is made for it
+  /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and
+  /// the critical step with it.
+  /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary
+  /// ones
+  /// \throws InputError for a negative friction, and for a law that `require_consistent` rejects when the list is made
+  /// for it
   Verdict refresh(PackingType& packing, Law const& law) const {
     if constexpr (in_library) {
       return Library::refresh(*this, packing, law);
@@ -101,8 +103,8 @@ class TimeStepper {
     }
   }
 
-  /// Stress and balance of the packing as it stands; no grain moves, but contacts are brought up to date, which the next
-  /// step would do in the same way, and an old pair list is renewed.
+  /// Stress and balance of the packing as it stands; no grain moves, but contacts are brought up to date, which the
+  /// next step would do in the same way, and an old pair list is renewed.
   Verdict observe(PackingType& packing, Law const& law, StepObservation<dim>& observed) {
     if constexpr (in_library) {
       return Library::observe(*this, packing, law, observed);

@@ -9,10 +9,11 @@
 
 namespace scarp {
 
-/// Linear displacements of a boundary frame: grains whose centres lie within a rim at the cell's faces follow the mean strain, centre and
-/// spin. They touch their periodic neighbours. Its excess of stiffness over `Periodic` falls with the size of the cell (J. Dettmar and C. Miehe, XXI ICTAM,
-/// Warsaw 2004); a rim of all grains is uniform strain. A grain that drifts into the rim stays.
-/// The faces are those of the reduced cell: they change where a sheared cell is reduced, once the shear exceeds about a half.
+/// Linear displacements of a boundary frame: grains whose centres lie within a rim at the cell's faces follow the mean
+/// strain, centre and spin. They touch their periodic neighbours. Its excess of stiffness over `Periodic` falls with
+/// the size of the cell (J. Dettmar and C. Miehe, XXI ICTAM, Warsaw 2004); a rim of all grains is uniform strain. A
+/// grain that drifts into the rim stays. The faces are those of the reduced cell: they change where a sheared cell is
+/// reduced, once the shear exceeds about a half.
 struct UniformStrainRim {
   double width = 1.0;  ///< of the rim at each face, over the diameter of the disc or sphere of mean content
 

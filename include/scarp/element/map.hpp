@@ -45,8 +45,8 @@ double measure(Corners<Cell, Space> const& corners, Vector<Cell::dim> const& xi)
   }
 }
 
-/// d det(A)^(2/d) / |A|^2 of the map A from a regular cell: 1 for a regular one, 0 without volume or inside out (Liu and
-/// Joe 1994; Knupp 2001).
+/// d det(A)^(2/d) / |A|^2 of the map A from a regular cell: 1 for a regular one, 0 without volume or inside out (Liu
+/// and Joe 1994; Knupp 2001).
 template <class Cell>
 double mean_ratio(Corners<Cell, Cell::dim> const& corners, Vector<Cell::dim> const& xi) {
   constexpr int dim = Cell::dim;

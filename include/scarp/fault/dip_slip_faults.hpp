@@ -48,8 +48,8 @@ SCARP_EXPORT void require_node_at_tip(Mesh<Element> const& mesh, double tip) {
       tip, nearest);
 }
 
-/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by amplitude(load factor)
-/// in units of throw; in between, at the tip, the bottom follows detail::StepAtTip. The first axis is
+/// The sides "left" and "right" of a mesh and its "bottom" move with the two sides of a fault, by amplitude(load
+/// factor) in units of throw; in between, at the tip, the bottom follows detail::StepAtTip. The first axis is
 /// horizontal, the last vertical; in space the fault strikes along the second, where nothing moves on "front", "back"
 /// and the prescribed sides. A motion that changes along its strike moves each node by its share there.
 /// \throws InputError for parameters that the motion rejects, a tip outside the bottom, or a mesh without these

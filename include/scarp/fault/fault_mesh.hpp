@@ -38,8 +38,8 @@ Mesh<Element> grid_slab(std::vector<Vector<2>> const& nodes, GridNumbers const& 
 
 /// Soil layer over a fault: height 0 is bedrock level, `depth` the ground surface, the fault meets bedrock at (tip, 0).
 /// The last axis is vertical. A grid, finest in the band where the shear band and its outcrop are expected; a line
-/// passes through the tip. Region "soil"; boundaries "left", "right", "bottom", "surface". In space the grid extends along
-/// the strike, the second axis, in cells of one length, with "front" (y = 0) and "back".
+/// passes through the tip. Region "soil"; boundaries "left", "right", "bottom", "surface". In space the grid extends
+/// along the strike, the second axis, in cells of one length, with "front" (y = 0) and "back".
 struct FaultMesh {
   double left = -52.0;                 ///< [m]
   double right = 23.0;                 ///< [m]

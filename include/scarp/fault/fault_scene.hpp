@@ -32,9 +32,9 @@ auto const& alone(Soil const& soil) {
 }
 
 /// Rejects soil whose vertical stress does not carry the weight that the scene puts on it: ground that begins out of
-/// balance settles or heaves first, and its strength is that of another stress. Of some sites from the shallowest to the
-/// deepest the middle one counts, by its error: packings prepared for a few depths carry too much here and too little there.
-/// unit_weight [N/m3], surcharge [Pa] \throws InputError
+/// balance settles or heaves first, and its strength is that of another stress. Of some sites from the shallowest to
+/// the deepest the middle one counts, by its error: packings prepared for a few depths carry too much here and too
+/// little there. unit_weight [N/m3], surcharge [Pa] \throws InputError
 template <Material Soil, int Dim>
 void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit_weight, double surcharge) {
   constexpr double tolerance = 0.01;  // servos of preparations reach 1e-3
@@ -82,9 +82,10 @@ int extra_dofs(Attached const& attached) {
 
 namespace scarp {
 
-/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is attached, in stages of
-/// the load factor: from start() to 0 it is placed, from 0 on the fault moves. attached(grid), or attached(grid, throw_to): what is
-/// attached may follow the throw [m]; then end(throw_to), where there is one, is the load factor up to which the bedrock rests after it.
+/// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is
+/// attached, in stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves. attached(grid),
+/// or attached(grid, throw_to): what is attached may follow the throw [m]; then end(throw_to), where there is one, is
+/// the load factor up to which the bedrock rests after it.
 template <class Structure, class Grid>
 concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh, Grid const& grid,
                                   LoadHistory& loads) {
@@ -166,7 +167,8 @@ struct SCARP_EXPORT FaultScene {
     return throw_to;
   }
 
-  /// Last stage, where end() is beyond the throw: the bedrock rests, and what follows its motion goes on, such as water that drains.
+  /// Last stage, where end() is beyond the throw: the bedrock rests, and what follows its motion goes on, such as water
+  /// that drains.
   template <class ProblemType, class Observer>
   RunReport rest(ProblemType& problem, Observer& observer) const {
     LoadStepping stage = stepping;

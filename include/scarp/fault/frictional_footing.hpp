@@ -11,7 +11,8 @@
 
 namespace scarp {
 
-/// A rigid strip footing on an interface. With the default law, Coulomb friction and no tension, it may slide, tilt and lift.
+/// A rigid strip footing on an interface. With the default law, Coulomb friction and no tension, it may slide, tilt and
+/// lift.
 template <CheckedContactLaw Law = LinearFrictional>
 struct FrictionalFooting {
   StripFooting footing{};  ///< place, width and weight

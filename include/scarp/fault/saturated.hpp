@@ -12,7 +12,8 @@
 
 namespace scarp {
 
-/// Times of a rupture of saturated ground. Before the fault moves, and while a structure is placed, all excess pressures drain.
+/// Times of a rupture of saturated ground. Before the fault moves, and while a structure is placed, all excess
+/// pressures drain.
 struct RuptureTimes {
   double rupture = 1.0;   ///< that the whole throw takes [s]
   double drainage = 0.0;  ///< after the throw, while the bedrock rests [s]
@@ -46,8 +47,9 @@ struct RuptureTimes {
   }
 };
 
-/// Ground whose pores are full of water, below its table, and what stands on it. The scene's unit weight and its soil's stresses are
-/// effective ones: those of ground in water, see Water::buoyant_weight, where the table is at the surface or above it.
+/// Ground whose pores are full of water, below its table, and what stands on it. The scene's unit weight and its soil's
+/// stresses are effective ones: those of ground in water, see Water::buoyant_weight, where the table is at the surface
+/// or above it.
 /// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {

@@ -137,7 +137,8 @@ std::vector<SurfacePoint> surface_profile(std::vector<Vector<Dim>> const& nodes,
   return detail::joined_places(std::move(points), spans);
 }
 
-/// Profile along boundaries of a mesh, given by their names. \throws InputError for unknown ones and for positions of another mesh
+/// Profile along boundaries of a mesh, given by their names. \throws InputError for unknown ones and for positions of
+/// another mesh
 template <class Element>
 std::vector<SurfacePoint> surface_profile(Mesh<Element> const& mesh, std::vector<Vector<Element::dim>> const& rest,
                                           std::vector<Vector<Element::dim>> const& positions,

@@ -9,9 +9,9 @@
 
 namespace scarp {
 
-/// Stress and equilibrium of a packing as it stands, as a step would observe them but without the forces of dashpots; the
-/// packing is not changed. Love and Weber's mean stress has f the force on the second grain and l the branch from first to
-/// second, \f$ \sigma = -\frac1V \sum f \otimes l \f$.
+/// Stress and equilibrium of a packing as it stands, as a step would observe them but without the forces of dashpots;
+/// the packing is not changed. Love and Weber's mean stress has f the force on the second grain and l the branch from
+/// first to second, \f$ \sigma = -\frac1V \sum f \otimes l \f$.
 template <class PackingType>
 StepObservation<PackingType::dim> balance(PackingType const& packing, typename PackingType::Law const& law) {
   constexpr int dim = PackingType::dim;
@@ -33,8 +33,8 @@ StepObservation<PackingType::dim> balance(PackingType const& packing, typename P
   return seen;
 }
 
-/// The part of the stress that moving grains carry, \f$ -\frac1V \sum m\, v \otimes v \f$ with the fluctuation velocities
-/// [Pa], tension positive. Apart from Love and Weber's, to which it is small in a quasi-static packing.
+/// The part of the stress that moving grains carry, \f$ -\frac1V \sum m\, v \otimes v \f$ with the fluctuation
+/// velocities [Pa], tension positive. Apart from Love and Weber's, to which it is small in a quasi-static packing.
 template <class PackingType>
 Tensor<PackingType::dim> kinetic_stress(PackingType const& packing) {
   constexpr int dim = PackingType::dim;

@@ -76,7 +76,8 @@ concept PackingTangent = requires(Tangent const& tangent, PackingType const& pac
   { tangent(packing, law) } -> std::convertible_to<VoigtTangent<PackingType::dim>>;
 };
 
-/// Stiffness of a packing as a provider's tangent: all contacts elastic under uniform strain (Kruyt and Rothenburg 1998).
+/// Stiffness of a packing as a provider's tangent: all contacts elastic under uniform strain (Kruyt and Rothenburg
+/// 1998).
 struct AffineTangent {
   /// Elastic stiffness [Pa] of the packing for engineering strain.
   template <class PackingType>

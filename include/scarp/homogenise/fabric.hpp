@@ -12,7 +12,8 @@ namespace scarp {
 template <int Dim>
 using Fabric = Tensor<Dim>;
 
-/// Fabric of the grains' first axes, which are the longest unless sizes were given otherwise; for shapes with an orientation.
+/// Fabric of the grains' first axes, which are the longest unless sizes were given otherwise; for shapes with an
+/// orientation.
 template <class PackingType>
 Fabric<2> particle_fabric(PackingType const& packing) requires(PackingType::dim == 2 &&
                                                                PackingType::Shape::orientation_count == 2) {

@@ -12,8 +12,8 @@
 
 namespace scarp {
 
-/// A text file that grows line by line; every line is handed to the operating system at once. A checkpoint stores how long
-/// it was.
+/// A text file that grows line by line; every line is handed to the operating system at once. A checkpoint stores how
+/// long it was.
 class AppendedFile {
  public:
   /// continues: appends behind the last complete line of the file, which is not changed before a line is added;

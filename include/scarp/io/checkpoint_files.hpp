@@ -64,8 +64,8 @@ class CheckpointFiles {
 
   /// scene: all choices that make the scene, a line for each; run_folder.hpp has the run's identity
   /// \throws FolderError for a folder that is in use or cannot be written
-  /// \throws CheckpointError for a newest checkpoint that is harmed, of another scene, version or machine, and for an old one
-  /// where the run is to start afresh
+  /// \throws CheckpointError for a newest checkpoint that is harmed, of another scene, version or machine, and for an
+  /// old one where the run is to start afresh
   CheckpointFiles(CheckpointSettings settings, std::string scene)
       : settings_(std::move(settings)), scene_(std::move(scene)) {
     settings_.validate();

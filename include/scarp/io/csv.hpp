@@ -21,8 +21,8 @@ namespace scarp {
 
 namespace detail {
 
-/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 requires it, or blanks at
-/// its ends would be lost.
+/// Numbers in the shortest form that reads back to the same bits; text in quotes where RFC 4180 requires it, or blanks
+/// at its ends would be lost.
 template <class Value>
 std::string csv_cell(Value const& value) {
   if constexpr (std::convertible_to<Value const&, std::string_view>) {

@@ -24,8 +24,9 @@ struct CsvLine {
   std::vector<std::string> cells;
 };
 
-/// Parses a table's text, row by row. Lines of nothing but separators and blanks, as spreadsheets leave them, are skipped. Of commas,
-/// semicolons and tabs the one parts the cells that the first two lines have most of; a line `sep=` before them names the separator.
+/// Parses a table's text, row by row. Lines of nothing but separators and blanks, as spreadsheets leave them, are
+/// skipped. Of commas, semicolons and tabs the one parts the cells that the first two lines have most of; a line `sep=`
+/// before them names the separator.
 class CsvScanner {
  public:
   CsvScanner(std::string_view text, std::string file) : lines_(text), file_(std::move(file)) {
@@ -117,8 +118,8 @@ class CsvScanner {
 
 }  // namespace detail
 
-/// A table of a file, parted by commas (quotes as in RFC 4180), semicolons or tabs: named columns, whose cells become numbers when a column is requested, so that other columns may
-/// hold anything. Does not depend on the locale.
+/// A table of a file, parted by commas (quotes as in RFC 4180), semicolons or tabs: named columns, whose cells become
+/// numbers when a column is requested, so that other columns may hold anything. Does not depend on the locale.
 class CsvColumns {
  public:
   /// text: content of the file; file: its name in messages

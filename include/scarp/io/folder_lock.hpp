@@ -24,9 +24,9 @@ class FolderError : public InputError {
   using InputError::InputError;
 };
 
-/// Reserves a folder for one writer of a kind, by a locked file in it. The kernel lets go of it when the process dies, however that
-/// comes about. A folder that is not there is made; when the lock goes, so does what was made and got no content. A copy in a forked
-/// process leaves everything to its parent.
+/// Reserves a folder for one writer of a kind, by a locked file in it. The kernel lets go of it when the process dies,
+/// however that comes about. A folder that is not there is made; when the lock goes, so does what was made and got no
+/// content. A copy in a forked process leaves everything to its parent.
 class FolderLock {
  public:
   /// Locks nothing.

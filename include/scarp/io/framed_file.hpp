@@ -43,7 +43,8 @@ std::string framed(FileFormat const& format, Write&& write) {
   return std::move(file.bits());
 }
 
-/// \throws InputError unless the file is of this format and version, whole, unharmed and of this machine's order of bytes
+/// \throws InputError unless the file is of this format and version, whole, unharmed and of this machine's order of
+/// bytes
 inline std::string_view payload_of(FileFormat const& format, std::string_view file) {
   if (!file.starts_with(format.magic)) {
     reject("it is no {} (it does not begin with {}): give a file that {} wrote", format.content, format.magic,

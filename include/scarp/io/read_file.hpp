@@ -36,7 +36,8 @@ inline void reject_stand_in(std::string_view content, std::string_view file) {
 }  // namespace detail
 
 /// The whole content of a file, byte by byte.
-/// \throws InputError for a file that is missing, a folder or cannot be read, and for a web page, a pointer of Git LFS or an archive
+/// \throws InputError for a file that is missing, a folder or cannot be read, and for a web page, a pointer of Git LFS
+/// or an archive
 inline std::string read_file(std::filesystem::path const& path) {
   std::error_code trouble;
   if (!std::filesystem::exists(path, trouble)) {

@@ -132,8 +132,8 @@ class StateWriter {
   std::map<void const*, std::uint32_t> numbers_;
 };
 
-/// Shared parts that readers have met, so that what several bits share is shared again by the states made from them. Of parts
-/// that hold no shared parts themselves.
+/// Shared parts that readers have met, so that what several bits share is shared again by the states made from them. Of
+/// parts that hold no shared parts themselves.
 using SharedParts = std::map<std::pair<std::type_index, std::string>, std::weak_ptr<void const>>;
 
 /// Reads members from bits in the order of the writer.

@@ -11,7 +11,8 @@
 
 namespace scarp {
 
-/// The lines of a text one by one, without what ends them: line feed, carriage return or both. A byte order mark is dropped.
+/// The lines of a text one by one, without what ends them: line feed, carriage return or both. A byte order mark is
+/// dropped.
 class TextLines {
  public:
   /// text: outlives this object

@@ -59,7 +59,8 @@ inline std::string xml_text(std::string_view text) {
 
 /// A named quantity at all nodes or all elements, numbers flat and component running fastest.
 /// A vector (dim components) is written with three and a tensor (dim * dim, row by row) with nine, the added ones
-/// zero, as VTK wants them; other counts, such as a Voigt stress, and fields with named components are written as they are.
+/// zero, as VTK wants them; other counts, such as a Voigt stress, and fields with named components are written as they
+/// are.
 struct VtuField {
   std::string name;    ///< as ParaView lists it
   int components = 1;  ///< numbers of each node or element
@@ -184,7 +185,8 @@ inline std::string vtu_cells(Cells const& cells) {
 }  // namespace detail
 
 /// Writes an unstructured grid for ParaView and the like: XML with inline base64 binary, in full precision.
-/// positions [m]: of the nodes, such as the deformed ones. The region of every element is added as the cell field "region".
+/// positions [m]: of the nodes, such as the deformed ones. The region of every element is added as the cell field
+/// "region".
 /// \throws InputError for fields of the wrong length, and for names of fields that are there twice or no text
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched
 template <int Dim>

@@ -88,8 +88,8 @@ void validate_nodes(Mesh<Element> const& mesh) {
   }
 }
 
-/// The Jacobian at a point of an element where it is not positive, if there is such a point. A volume below 1e-10 of the
-/// element's extent to the power dim counts as zero: it is round-off of flat elements.
+/// The Jacobian at a point of an element where it is not positive, if there is such a point. A volume below 1e-10 of
+/// the element's extent to the power dim counts as zero: it is round-off of flat elements.
 template <class Element>
 std::optional<double> bad_jacobian(Mesh<Element> const& mesh, int element) {
   auto const rows = corners<Element, Element::dim>(mesh.elements[index(element)], mesh.nodes);

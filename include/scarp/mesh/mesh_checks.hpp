@@ -48,7 +48,8 @@ inline bool is_inside(Vector<2> const& place, std::array<Vector<2>, 2> const& co
   return beside <= same && way > same && way < length - same;
 }
 
-/// Whether a place is inside a triangle or, as a ring of corners, a quadrilateral in space, but not at one of its corners.
+/// Whether a place is inside a triangle or, as a ring of corners, a quadrilateral in space, but not at one of its
+/// corners.
 template <std::size_t Corners>
 bool is_inside(Vector<3> const& place, std::array<Vector<3>, Corners> const& corners, double same) {
   for (auto const& corner : corners) {

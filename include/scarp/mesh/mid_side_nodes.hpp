@@ -93,8 +93,8 @@ Mesh<LinearOf<Element>> corner_mesh(Mesh<Element> const& mesh) {
   }
 }
 
-/// A mesh of any element from its corners' mesh: with the further nodes of the element in the middles of edges or at its
-/// node_places(), each once, since elements share a node that has the same shares of the same corners. Edges stay
+/// A mesh of any element from its corners' mesh: with the further nodes of the element in the middles of edges or at
+/// its node_places(), each once, since elements share a node that has the same shares of the same corners. Edges stay
 /// straight. Corners keep their numbers, regions and boundaries their names.
 /// \throws InputError for an invalid mesh, and for an element whose first nodes are not the corners of `Linear`
 template <ReferenceElement Element>

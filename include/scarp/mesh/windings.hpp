@@ -55,8 +55,8 @@ std::array<int, Cell::nodes> turned_round(std::array<int, Cell::nodes> nodes) {
   return turned;
 }
 
-/// Whether two lists of the nodes of a side name them in one order, begun at any corner and either way round. Sides with nodes that
-/// are neither corners nor between two of them are not compared.
+/// Whether two lists of the nodes of a side name them in one order, begun at any corner and either way round. Sides
+/// with nodes that are neither corners nor between two of them are not compared.
 template <class Cell>
 bool is_same_side(std::array<int, Cell::nodes> const& a, std::array<int, Cell::nodes> const& b) {
   if constexpr (Cell::dim == 2) {

@@ -13,13 +13,14 @@
 
 namespace scarp {
 
-/// How every attempt at a load step converged, rejected ones included: a row of a table for every iteration, and a second file of
-/// JSON lines (`.jsonl`) with all of the solver's data. Each of these has a `kind`: "iteration", or "step", which
-/// closes an attempt and has the last residual of every part, where the problem has parts. A rate is the residual over
-/// that of the iteration before; times are wall time [s].
+/// How every attempt at a load step converged, rejected ones included: a row of a table for every iteration, and a
+/// second file of JSON lines (`.jsonl`) with all of the solver's data. Each of these has a `kind`: "iteration", or
+/// "step", which closes an attempt and has the last residual of every part, where the problem has parts. A rate is the
+/// residual over that of the iteration before; times are wall time [s].
 class ConvergenceLog : public NeverStops {
  public:
-  /// \throws FileError when a file cannot be written, InputError for a table that ends in .jsonl, as the second file does
+  /// \throws FileError when a file cannot be written, InputError for a table that ends in .jsonl, as the second file
+  /// does
   ConvergenceLog(std::filesystem::path const& file, LoadMeasure measure, CsvStart start = CsvStart::anew)
       : measure_(detail::validated(std::move(measure))),
         table_(table_file(file),

@@ -87,10 +87,11 @@ ElementFields element_fields(Problem const& problem) {
 
 }  // namespace detail
 
-/// Writes the fields of a scene as a VTU series: displacement and fields of what is attached at the nodes; at the elements (the mean of
-/// their points, weighted by volume; the worst status)
+/// Writes the fields of a scene as a VTU series: displacement and fields of what is attached at the nodes; at the
+/// elements (the mean of their points, weighted by volume; the worst status)
 /// Cauchy stress [Pa] tension positive, logarithmic volumetric (contraction positive) and deviatoric strain, status
-/// and the quantities that the points' providers return. Every file is complete when it appears; the PVD's time is the load in its unit.
+/// and the quantities that the points' providers return. Every file is complete when it appears; the PVD's time is the
+/// load in its unit.
 class FieldSeries : public NeverStops {
  public:
   /// Files are written at load 0 and then whenever the load has grown by schedule.to / schedule.count.

@@ -16,8 +16,8 @@
 namespace scarp {
 
 /// Several observers as one; each is called at every attempt, any may stop the run.
-/// \tparam Parts each an `ObservesSteps`; one that lives elsewhere, for a program that reads it when the run has ended, is given
-/// by `std::ref` and outlives the run
+/// \tparam Parts each an `ObservesSteps`; one that lives elsewhere, for a program that reads it when the run has ended,
+/// is given by `std::ref` and outlives the run
 template <class... Parts>
 struct Observers {
   static_assert(!((requires { typename std::unwrap_reference_t<Parts>::WatchesAll; }) || ...),

@@ -15,9 +15,10 @@
 
 namespace scarp {
 
-/// Writes the packing of one material point, grains and contacts with their forces, at the first accepted steps at which the load
-/// has come to given shares of its end: packings/NAME_k_grains.csv, _contacts.csv, _cell.csv for k = 0, 1, ... and their list
-/// packings/NAME.csv. Nothing where the point carries no packing of discs or ellipses in the plane.
+/// Writes the packing of one material point, grains and contacts with their forces, at the first accepted steps at
+/// which the load has come to given shares of its end: packings/NAME_k_grains.csv, _contacts.csv, _cell.csv for k = 0,
+/// 1, ... and their list packings/NAME.csv. Nothing where the point carries no packing of discs or ellipses in the
+/// plane.
 class PackingSeries : public NeverStops {
  public:
   /// point: number of a material point, see nearest_point

@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Follows the packing of one material point: stress and strain in geo view (compression positive), void ratio and fabrics,
-/// one row for each accepted step. With an intrinsic length the strain is the mean that the packing sees.
+/// Follows the packing of one material point: stress and strain in geo view (compression positive), void ratio and
+/// fabrics, one row for each accepted step. With an intrinsic length the strain is the mean that the packing sees.
 class RveProbe : public NeverStops {
  public:
   /// point: number of a material point, see Grid::nearest_point

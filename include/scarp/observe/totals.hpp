@@ -19,9 +19,9 @@ void for_each_volume(Problem const& problem, Visit const& visit) {
 }
 }  // namespace detail
 
-/// Volume of the solids of a committed state by the void ratios e of the packings, \f$ \sum v / (1 + e) \f$ over the present
-/// volumes v of the points with packings; 0 without any. Solids neither come nor go: as far as this number changes, the mesh has another
-/// change of volume than the packings. [m2], in 3D [m3]
+/// Volume of the solids of a committed state by the void ratios e of the packings, \f$ \sum v / (1 + e) \f$ over the
+/// present volumes v of the points with packings; 0 without any. Solids neither come nor go: as far as this number
+/// changes, the mesh has another change of volume than the packings. [m2], in 3D [m3]
 template <class Problem>
 double solid_volume(Problem const& problem) {
   double sum = 0.0;
@@ -48,10 +48,11 @@ double floor_share(Problem const& problem) {
   return floors > 0.0 ? floors / all : 0.0;
 }
 
-/// Work of the reactions at prescribed displacements per unit of their amplitude, the load factor where none is given [N],
-/// of the mesh's whole thickness: \f$ R = \sum_k \dot u_k r_k \f$ with the rate of each prescribed displacement and the
-/// nodal force of the stresses, and of a field such as water, in the committed state. Loads on these nodes are not subtracted: of a fault, whose load factor is the throw, the
-/// difference to the ground at rest is what moving bedrock works against. On all ranks at once.
+/// Work of the reactions at prescribed displacements per unit of their amplitude, the load factor where none is given
+/// [N], of the mesh's whole thickness: \f$ R = \sum_k \dot u_k r_k \f$ with the rate of each prescribed displacement
+/// and the nodal force of the stresses, and of a field such as water, in the committed state. Loads on these nodes are
+/// not subtracted: of a fault, whose load factor is the throw, the difference to the ground at rest is what moving
+/// bedrock works against. On all ranks at once.
 template <class Problem>
 double generalised_reaction(Problem const& problem) {
   auto const& grid = problem.grid();

@@ -15,8 +15,8 @@ namespace scarp {
 template <int Dim>
 class MaterialPoints;
 
-/// Any material, chosen while a program runs, of a region or a list of regions: scenes, solvers and observers are compiled once for
-/// all. The responses are the provider's own, bit for bit.
+/// Any material, chosen while a program runs, of a region or a list of regions: scenes, solvers and observers are
+/// compiled once for all. The responses are the provider's own, bit for bit.
 /// \code
 /// scarp::AnyProvider<2> soil = stiff ? scarp::AnyProvider<2>(elastic) : scarp::AnyProvider<2>(packings);
 /// \endcode

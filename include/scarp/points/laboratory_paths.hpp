@@ -6,9 +6,10 @@
 namespace scarp {
 
 /// \file
-/// The tests of the laboratory as conditions of a `PointPath`. The length of a path is the compression of the last, the axial, axis, the
-/// volumetric compression of isotropic paths and the angle of simple shear; a negative length is extension or shear to the
-/// other side. Stresses that are held stay what they are where the path begins. In the plane biaxial tests in plane strain, in space triaxial ones.
+/// The tests of the laboratory as conditions of a `PointPath`. The length of a path is the compression of the last, the
+/// axial, axis, the volumetric compression of isotropic paths and the angle of simple shear; a negative length is
+/// extension or shear to the other side. Stresses that are held stay what they are where the path begins. In the plane
+/// biaxial tests in plane strain, in space triaxial ones.
 
 namespace detail {
 
@@ -19,7 +20,8 @@ VoigtStress<Dim> trace() {
   return weights;
 }
 
-/// Conditions on the normal components, completed by shear strains of zero, the one in the plane of simple shear at a rate.
+/// Conditions on the normal components, completed by shear strains of zero, the one in the plane of simple shear at a
+/// rate.
 template <int Dim>
 PathConditions<Dim> without_shear(PathConditions<Dim> conditions, double rate = 0.0) {
   constexpr int sheared = Dim == 2 ? 2 : 4;  // xy, zx
@@ -28,7 +30,8 @@ PathConditions<Dim> without_shear(PathConditions<Dim> conditions, double rate = 
   return conditions;
 }
 
-/// The axial axis shortens at the rate 1 under one more condition; in space the difference of the lateral stresses stays.
+/// The axial axis shortens at the rate 1 under one more condition; in space the difference of the lateral stresses
+/// stays.
 template <int Dim>
 PathConditions<Dim> axial(PathCondition<Dim> lateral) {
   PathConditions<Dim> conditions{{.of_strain = VoigtStress<Dim>::Unit(Dim - 1), .rate = -1.0}, std::move(lateral)};

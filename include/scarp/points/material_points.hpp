@@ -21,17 +21,17 @@
 
 namespace scarp {
 
-/// A batch of material points of one or several providers: parameters, committed and trial states, plans, and means over neighbours
-/// where a region has them. The material side of `Problem`, and of any program that has points of its own:
+/// A batch of material points of one or several providers: parameters, committed and trial states, plans, and means
+/// over neighbours where a region has them. The material side of `Problem`, and of any program with own points:
 /// \code
 /// MaterialPoints<2> points(soil, sites);
 /// points.gradient(0) = increment;             // of all points, since the last commit
 /// ResponseReport const report = points.respond(executor);
 /// if (report.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
 /// \endcode
-/// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared out among
-/// processes (see Executor), each evaluates its own and all know all responses. Types of providers are hidden: what a state holds is
-/// read by name (`quantities`), or by its type (`state`).
+/// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared
+/// out among processes (see Executor), each evaluates its own and all know all responses. Types of providers are
+/// hidden: what a state holds is read by name (`quantities`), or by its type (`state`).
 template <int Dim>
 class SCARP_EXPORT MaterialPoints {
  public:
@@ -42,8 +42,8 @@ class SCARP_EXPORT MaterialPoints {
   using Tangents = std::vector<VoigtTangent<Dim>>;  ///< one for each point [Pa]
 
   MaterialPoints() = default;
-  /// Points of several materials. material_of: number of each site's material; volumes [m3]: weights of means, empty where no
-  /// material has means; owned(number of a point): whether this process evaluates it
+  /// Points of several materials. material_of: number of each site's material; volumes [m3]: weights of means, empty
+  /// where no material has means; owned(number of a point): whether this process evaluates it
   /// \throws InputError for a material that holds no provider, and for counts that differ
   MaterialPoints(std::vector<AnyProvider<Dim>> materials, std::span<int const> material_of,
                  std::span<Site<Dim> const> sites, std::span<double const> volumes,
@@ -80,7 +80,7 @@ class SCARP_EXPORT MaterialPoints {
     }
   }
 
-  /// Points of one material, whatever their regions are; means do not reach across these. owned: without, all are of this process
+  /// Points of one material in all regions; means do not reach across these. owned: without, all are of this process
   /// \throws InputError for counts that differ
   template <CheckedMaterial MaterialType>
     requires(MaterialType::dim == Dim)
@@ -138,38 +138,38 @@ class SCARP_EXPORT MaterialPoints {
   /// \throws InputError for states that name no members
   std::string pack(std::span<int const> points) const;
   std::string pack(int point) const { return pack(std::span(&point, 1)); }  ///< Bits of one point's committed state.
-  /// Other committed states for points, between load steps, by the bits of as many points of the same providers; points share again
-  /// what those shared.
+  /// Other committed states for points, between load steps, by the bits of as many points of the same providers; points
+  /// share again what those shared.
   /// \throws InputError for other bits, and for points that are named twice, without any change
   void unpack(std::span<int const> points, std::string_view bits);
   void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }  ///< Of one point.
-  /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In the mirror
-  /// of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
-  /// \throws InputError for a point of another type of provider, for one with means and one without, and for states that cannot be mirrored
+  /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In
+  /// the mirror of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
+  /// \throws InputError for other types of providers, one with means and one without, and states without mirror images
   void copy(int to, MaterialPoints const& from, int point, bool is_mirrored = false);
   /// The point alone, with the state of these bits and without neighbours.
   MaterialPoints extract(int point, std::string_view bits) const;
   void release(int point) { batch(point).release(local(point)); }  ///< Leaves its state to the process that owns it.
-  /// What evolves: committed states and those of means. Read in, all are here until they are released; only own points respond.
+  /// What evolves: committed states and those of means. Read in, all are here until released; only own points respond.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit);
 
   /// Displacement gradient of a point since the last commit, for `respond`; to be set anew after each commit.
   Gradient<Dim>& gradient(int point) { return own_[detail::index(existing(point))]; }
-  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and anew for gradients that
-  /// need half as many again; points that do not converge take more, at most max_refinements times, and keep them until the next commit.
+  /// Responses to the gradients of all points: DEM steps are planned at the first response after a commit, and anew for
+  /// gradients that need half as many again; points that do not converge take more, at most max_refinements times.
   /// \throws InputError for gradients that are not finite
   ResponseReport respond(Executor const& executor, int max_refinements = 8);
   /// Sets all points' own gradients, and what the points see of them.
   void set_gradients(Gradients own, Executor const& executor);
-  /// Fixes every point's number of inner steps from its mean gradient, so that responses are smooth functions of gradients until the next plan.
+  /// Fixes every point's number of inner steps from its mean gradient, so that responses are smooth until the next.
   void plan() {
     for (int const point : owned_) batch(point).plan(local(point), seen_[detail::index(point)]);
     is_planned_ = true;
   }
-  /// All points respond from their committed states to what they see, with the work that is planned, or more where that is far too little.
+  /// All points respond from their committed states to what they see, with the planned work, or more if far too little.
   ResponseReport evaluate(Executor const& executor) { return evaluate(owned_, executor); }
-  /// Points whose last response is not converged take more inner steps, now and until the next plan; one that cannot would only repeat its response.
+  /// Points whose last response is not converged take more inner steps, now and until the next plan, if they can.
   ResponseReport refine(Executor const& executor);
   /// The committed stresses as responses: no point has moved.
   void evaluate_committed(Executor const& executor);
@@ -227,8 +227,8 @@ class SCARP_EXPORT MaterialPoints {
   DoubledResponse<Dim> doubled_response(int point) const {
     return batch(point).doubled(local(point), seen_[detail::index(point)], nullptr);
   }
-  /// Right after a commit: takes a copy of the point's state, in bits, through the committed increment with twice the work; without
-  /// bits it begins with the committed state and has no response. Of states that name no members bits stay empty.
+  /// Right after a commit: takes a copy of the point's state, in bits, through the committed increment with twice the
+  /// work; without bits it begins with the committed state and has no response. States without members have none.
   DoubledResponse<Dim> doubled_path(int point, std::string& bits) const {
     return batch(point).doubled(local(point), seen_[detail::index(point)], &bits);
   }

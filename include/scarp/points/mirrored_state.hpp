@@ -32,8 +32,9 @@ VoigtStress<Dim> mirrored_stress(VoigtStress<Dim> const& stress, Vector<Dim> con
   return to_voigt_stress<Dim, double>(mirror * from_voigt_stress<Dim, double>(stress) * mirror);
 }
 
-/// Mirrors the members of a state by their types: stresses, tangents, tensors of rank two and packings (see `mirrored`); other numbers stay.
-/// In the plane a 3 x 3 matrix is a tangent and a vector of six numbers a stress in space.
+/// Mirrors the members of a state by their types: stresses, tangents, tensors of rank two and packings (see
+/// `mirrored`); other numbers stay. In the plane a 3 x 3 matrix is a tangent and a vector of six numbers a stress in
+/// space.
 template <int Dim>
 struct Mirror {
   Vector<Dim> normal;  ///< of the plane, of length 1

@@ -23,8 +23,8 @@ class NeighbourMean {
   };
 
   NeighbourMean() = default;
-  /// first: where in `shares` the neighbours of each point begin, and their end; shape (points + 1). Of each point they are in
-  /// increasing order, and their weights add up to one.
+  /// first: where in `shares` the neighbours of each point begin, and their end; shape (points + 1). Of each point they
+  /// are in increasing order, and their weights add up to one.
   NeighbourMean(std::vector<std::size_t> first, std::vector<Share> shares)
       : first_(std::move(first)), shares_(std::move(shares)) {}
 

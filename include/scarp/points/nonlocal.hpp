@@ -90,7 +90,8 @@ PointMeans<Dim> point_means(std::span<Site<Dim> const> sites, std::span<double c
   return {neighbour_mean<Dim>(sites, volumes, lengths), neighbourhoods, initial, gmres};
 }
 
-/// Any material whose points see means of the increments around them, see PointMeans, so that one that softens has a length of its
+/// Any material whose points see means of the increments around them, see PointMeans, so that one that softens has a
+/// length of its
 /// own: `FaultScene<Nonlocal<Soil>, ...>`, or `Region{"soil", Nonlocal{soil, 2.0}}`.
 /// \tparam Provider a `ConstitutiveProvider` or `AnyProvider`
 template <class Provider>

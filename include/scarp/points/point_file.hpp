@@ -12,7 +12,8 @@ namespace detail {
 inline constexpr FileFormat points_format{"SCARPPTS", 3, "file of material points", "save_points"};
 }  // namespace detail
 
-/// Writes the committed states of all points. Grains that states share are in it once; points that read it continue with the bits of those that were saved.
+/// Writes the committed states of all points. Grains that states share are in it once; points that read it continue
+/// with the bits of those that were saved.
 /// \throws InputError for states that name no members, and for points of other processes
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched
 template <int Dim>
@@ -23,8 +24,8 @@ void save_points(std::filesystem::path const& path, MaterialPoints<Dim> const& p
 }
 
 /// Reads the committed states of points at the same sites, of the same providers.
-/// \throws InputError naming the file for one that is missing, of other points, another version or machine, cut off or harmed; the points
-/// are then as before
+/// \throws InputError naming the file for one that is missing, of other points, another version or machine, cut off or
+/// harmed; the points are then as before
 template <int Dim>
 void load_points(std::filesystem::path const& path, MaterialPoints<Dim>& points) {
   std::string const file = read_file(path);

@@ -56,8 +56,8 @@ struct SplitTangents {
 /// become as thin as the mesh: strain \f$ \varepsilon = W^{-1} \bar\varepsilon \f$ belongs to any
 /// \f$ \bar\varepsilon \f$. A local share of what the material sees would not help, since it softens as well. With s =
 /// 1 a uniform elastic body responds as a local one; a tau that did not fade would lock bands, whose strain is never
-/// that of its mean. Neighbours fluctuate in volume; with initial volumes as weights the volume of all would grow by more
-/// than the materials dilate, since the mean of J is larger than the exponential of the mean of log J.
+/// that of its mean. Neighbours fluctuate in volume; with initial volumes as weights the volume of all would grow by
+/// more than the materials dilate, since the mean of J is larger than the exponential of the mean of log J.
 template <int Dim>
 class PointMeans {
  public:
@@ -65,8 +65,8 @@ class PointMeans {
   using Stresses = std::vector<VoigtStress<Dim>>;   ///< one for each point [Pa]
   using Tangents = std::vector<VoigtTangent<Dim>>;  ///< one for each point [Pa]
 
-  /// neighbourhoods, and tangents [Pa] of the states that the points begin with: of all points; iteration: solves linear systems of
-  /// stiffnesses that are not assembled
+  /// neighbourhoods, and tangents [Pa] of the states that the points begin with: of all points; iteration: solves
+  /// linear systems of stiffnesses that are not assembled
   /// \throws InputError for numbers that no neighbourhood can have, and counts that differ
   PointMeans(NeighbourMean mean, std::span<Neighbourhood const> neighbourhoods, Tangents const& initial,
              LinearIteration iteration)
@@ -110,8 +110,8 @@ class PointMeans {
   /// tau [Pa] of all points in the last increment that was averaged.
   Stresses const& added_stresses() const { return trial_; }
 
-  /// Derivatives [Pa] of the points' whole stresses by their own strains and by the means that they see, in the last increment
-  /// that was averaged; tangents: the materials' by what they see. A point alone has its own strain only.
+  /// Derivatives [Pa] of the points' whole stresses by their own strains and by the means that they see, in the last
+  /// increment that was averaged; tangents: the materials' by what they see. A point alone has its own strain only.
   SplitTangents<Dim> split(Tangents tangents) const {
     SplitTangents<Dim> parts{std::move(tangents), Tangents(by_mean_.size(), VoigtTangent<Dim>::Zero())};
     for (std::size_t k = 0; k < by_mean_.size(); ++k) {
@@ -144,7 +144,8 @@ class PointMeans {
     volume_[detail::index(point)] = trial_volume_[detail::index(point)] = state.volume;
   }
 
-  /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that distinguish them from others.
+  /// What tau depends on: neighbours, their weights and the stiffness against fluctuation strain, in numbers that
+  /// distinguish them from others.
   /// \throws InputError when it reads those of other means
   template <class Self, class Visit>
   static void basis_members(Self& self, Visit&& visit) {

@@ -17,8 +17,8 @@
 
 namespace scarp {
 
-/// A linear condition on a point's strain or stress along a path: \f$ a\cdot\varepsilon \f$ or \f$ b\cdot\sigma \f$ changes by `rate` [-, Pa]
-/// per unit of the path, or reaches `target` after one unit. Tension positive.
+/// A linear condition on a point's strain or stress along a path: \f$ a\cdot\varepsilon \f$ or \f$ b\cdot\sigma \f$
+/// changes by `rate` [-, Pa] per unit of the path, or reaches `target` after one unit. Tension positive.
 template <int Dim>
 struct PathCondition {
   EngineeringStrain<Dim> of_strain = EngineeringStrain<Dim>::Zero();  ///< a; zero where the stress is controlled
@@ -66,9 +66,9 @@ struct [[nodiscard]] PathReport {
 /// PointPath<2> test(points, drained_path<2>());
 /// while (test.length() < 0.1 && test.advance(1e-3, executor).verdict.acceptable()) print(points.committed_stress(0));
 /// \endcode
-/// The strain is the sum of the increments' logarithms, which are upper triangular: the plane across the last axis never tilts.
-/// Every point begins with the stress that it has. Newton's method on the points' tangents; where these are no derivatives, as of
-/// packings, they are corrected by Broyden's update from response to response and kept for the next increment.
+/// The strain is the sum of the increments' logarithms, which are upper triangular: the plane across the last axis
+/// never tilts. Every point begins with the stress that it has. Newton's method on the points' tangents; where these
+/// are no derivatives, as of packings, they are corrected by Broyden's update from response to response, and kept.
 template <int Dim>
 class PointPath {
  public:
@@ -86,7 +86,7 @@ class PointPath {
   }
 
   /// Other conditions from here on.
-  /// \throws InputError unless there is one for each strain component, on a strain or a stress, none following from the others
+  /// \throws InputError unless there is one for each strain component, on a strain or a stress, none by the others
   void load(PathConditions<Dim> conditions) {
     if (std::ssize(conditions) != size)
       reject("a path has {} conditions (the strain has {} components): give one for each", conditions.size(), size);
@@ -111,8 +111,9 @@ class PointPath {
     }
   }
 
-  /// Continues by a length, negative for the way back, in one increment or, where it does not converge, in several; each is committed.
-  /// \return iterations_spent, unreachable (for a strain beyond a tenth) or the reason of a point's response, with what was committed before
+  /// Continues by a length, negative for the way back, in one increment, or more to converge; each is committed.
+  /// \return iterations_spent, unreachable (strain beyond a tenth) or a response's reason, with what was committed
+  /// before
   PathReport advance(double length, Executor const& executor) {
     require_finite("length of a path", length);
     PathReport report;

@@ -26,7 +26,8 @@ template <class MaterialType>
 Region(std::string, MaterialType) -> Region<MaterialType>;
 
 /// Points of several regions; a site's region is the number of its name in `names`.
-/// volumes [m3]: weights of means, empty where no region has means; owned(number of a point): whether this process evaluates it
+/// volumes [m3]: weights of means, empty where no region has means; owned(number of a point): whether this process
+/// evaluates it
 /// \throws InputError for a region that has no name here, is given twice or has no material, and for counts that differ
 template <int Dim>
 MaterialPoints<Dim> points_of_regions(std::vector<Region<AnyProvider<Dim>>> const& regions,

@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Displacement gradient H of half an increment at constant velocity gradient, \f$ (I + H)^2 = I + G \f$; for increments below
-/// one half, to round-off.
+/// Displacement gradient H of half an increment at constant velocity gradient, \f$ (I + H)^2 = I + G \f$; for
+/// increments below one half, to round-off.
 template <int Dim>
 Gradient<Dim> half_increment(Gradient<Dim> const& gradient) {
   Gradient<Dim> half = gradient / 2.0;
@@ -26,7 +26,8 @@ struct DoubledResponse {
   long work = 0;           ///< inner steps, or the number of responses
 };
 
-/// Response to an increment with twice the work: by the refined plan where that has more inner steps, else in two halves.
+/// Response to an increment with twice the work: by the refined plan where that has more inner steps, else in two
+/// halves.
 /// trial: overwritten with the state that belongs to the response
 template <CheckedProvider Provider>
 DoubledResponse<Provider::dim> respond_with_double_work(Provider const& provider, typename Provider::State const& from,
@@ -55,8 +56,8 @@ double stress_size(VoigtStress<Dim> const& stress) {
   return from_voigt_stress<Dim, double>(stress).norm();
 }
 
-/// Size of the difference of two stresses over that of the first one, which counts as `least` [Pa] where it is below it.
-/// Infinite for a response that failed.
+/// Size of the difference of two stresses over that of the first one, which counts as `least` [Pa] where it is below
+/// it. Infinite for a response that failed.
 template <int Dim>
 double stress_difference(VoigtStress<Dim> const& stress, Response<Dim> const& other, double least) {
   double const apart = stress_size<Dim>(other.stress - stress);

@@ -18,7 +18,8 @@ void keep_own_states(Problem& problem) {
   }
 }
 
-/// Runs a task on the root rank, where all points have their committed states as long as it lasts; the other ranks send theirs.
+/// Runs a task on the root rank, where all points have their committed states as long as it lasts; the other ranks send
+/// theirs.
 template <class Problem, class Task>
 void with_all_states(Problem& problem, Task const& task) {
   on_root_rank(problem, [&] {
@@ -30,8 +31,8 @@ void with_all_states(Problem& problem, Task const& task) {
   });
 }
 
-/// A run in stages that can be killed at any moment and resumes from its last checkpoint with the same bits. It watches the
-/// stages in place of other observers, which it passes everything on to and whose memory it saves too:
+/// A run in stages that can be killed at any moment and resumes from its last checkpoint with the same bits. It watches
+/// the stages in place of other observers, which it passes everything on to and whose memory it saves too:
 /// \code
 /// CheckpointFiles files({.folder = "states", .resume = true}, "size = 2.5\nseed = 1\n");
 /// Observers observers(...);  // logs are CsvStart::resumed where files.resumes()
@@ -39,11 +40,12 @@ void with_all_states(Problem& problem, Task const& task) {
 /// run.stage([&] { return scene.settle(problem, run); });
 /// run.stage([&] { return scene.rupture(problem, run); });
 /// \endcode
-/// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same scene. A
-/// checkpoint is made before an attempt when its time has come, where a stage by run() or advance() ends, and where that stops, for
-/// whatever reason: with the last accepted state then. When something cannot be written, by an observer or of a checkpoint, the run stops there as
-/// when it is interrupted, and trouble() returns the message. Where points are distributed over processes,
-/// the first one writes for all and each reads all: another number of processes may resume.
+/// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same
+/// scene. A checkpoint is made before an attempt when its time has come, where a stage by run() or advance() ends, and
+/// where that stops, for whatever reason: with the last accepted state then. When something cannot be written, by an
+/// observer or of a checkpoint, the run stops there as when it is interrupted, and trouble() returns the message. Where
+/// points are distributed over processes, the first one writes for all and each reads all: another number of processes
+/// may resume.
 /// \tparam Watched an `ObservesSteps` that is `Described`, such as `Observers`
 template <class Watched, Described Notes>
 class CheckpointedRun {
@@ -61,8 +63,8 @@ class CheckpointedRun {
     stage_ = -1;
   }
 
-  /// action() goes through a stage, one path of the load factor, watched by this object, and returns its RunReport. Left out when a stage before it was
-  /// not completed, or when a checkpoint lies behind it.
+  /// action() goes through a stage, one path of the load factor, watched by this object, and returns its RunReport.
+  /// Left out when a stage before it was not completed, or when a checkpoint lies behind it.
   template <class Action>
   void stage(Action&& action) {
     ++stage_;

@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// Calls visit(points, number) with points of which this process has the committed state. Where points are shared out among processes, this
-/// is for the root rank, inside on_root_rank: it gets a copy of what another rank has.
+/// Calls visit(points, number) with points of which this process has the committed state. Where points are shared out
+/// among processes, this is for the root rank, inside on_root_rank: it gets a copy of what another rank has.
 template <class Problem, class Visit>
 void visit_point(Problem const& problem, int point, Visit const& visit) {
   if (problem.executor().owns(point)) return visit(problem.points(), point);
@@ -29,7 +29,8 @@ VoigtStress<Problem::dim> committed_stress(Problem const& problem, int point) {
   return stress;
 }
 
-/// Named numbers of the committed states of this process' points, by the executor's threads; nothing for points of other processes.
+/// Named numbers of the committed states of this process' points, by the executor's threads; nothing for points of
+/// other processes.
 template <class Problem>
 std::vector<std::optional<Quantities>> own_quantities(Problem const& problem) {
   auto const& executor = problem.executor();
@@ -43,8 +44,8 @@ std::vector<std::optional<Quantities>> own_quantities(Problem const& problem) {
 /// Whether this process is the first, or the only one.
 inline bool is_root_rank(Executor const& executor) { return executor.rank() == 0; }
 
-/// Runs a task on the root rank only, which may read the points of all ranks by visit_point; the others serve meanwhile.
-/// What one of them throws ends all.
+/// Runs a task on the root rank only, which may read the points of all ranks by visit_point; the others serve
+/// meanwhile. What one of them throws ends all.
 template <class Problem, class Task>
 void on_root_rank(Problem const& problem, Task const& task) {
   problem.executor().on_first(task, [&](int point) { return problem.points().pack(point); });

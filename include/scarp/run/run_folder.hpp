@@ -28,9 +28,10 @@ struct RunFolderSettings {
 /// // write results
 /// folder.end("finished");
 /// \endcode
-/// A new run uses a folder without results, or any that it may overwrite. A run that resumes from a checkpoint uses its own folder
-/// only. One that is to resume and finds no checkpoint uses that of an unfinished run of the same scene, which has made none.
-/// Until begin() nothing in the folder is changed: a run that is rejected, here or later, leaves it as it was.
+/// A new run uses a folder without results, or any that it may overwrite. A run that resumes from a checkpoint uses its
+/// own folder only. One that is to resume and finds no checkpoint uses that of an unfinished run of the same scene,
+/// which has made none. Until begin() nothing in the folder is changed: a run that is rejected, here or later, leaves
+/// it as it was.
 class RunFolder {
  public:
   /// files: where the run saves itself, if it does; they receive its identity

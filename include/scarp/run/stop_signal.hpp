@@ -58,9 +58,10 @@ class StopHandlers {
 
 }  // namespace detail
 
-/// Ends a run when the process gets SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is gone, unless started by nohup), SIGPIPE
-/// (nobody reads its output any more), or SIGUSR1, SIGUSR2 and SIGXCPU (a batch system is about to end it); a second signal ends it at
-/// once, but for SIGPIPE. When the last of these objects is gone, the handlers are those from before it, and the signal is forgotten.
+/// Ends a run when the process gets SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is gone, unless started by nohup),
+/// SIGPIPE (nobody reads its output any more), or SIGUSR1, SIGUSR2 and SIGXCPU (a batch system is about to end it); a
+/// second signal ends it at once, but for SIGPIPE. When the last of these objects is gone, the handlers are those from
+/// before it, and the signal is forgotten.
 class StopSignal {
  public:
   template <class Problem>

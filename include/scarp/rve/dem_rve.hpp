@@ -67,8 +67,8 @@ struct DemRve {
   Tangent tangent_policy{};                   ///< stiffness of a packing as the provider's tangent
 
   /// A packing that was listed with another law is listed anew.
-  /// \throws InputError for parameters that no response can be made with, and for a packing that carries nothing or cannot be
-  /// used
+  /// \throws InputError for parameters that no response can be made with, and for a packing that carries nothing or
+  /// cannot be used
   State initial_state(Site<dim> const& site) const {
     validate();
     State state;
@@ -94,7 +94,8 @@ struct DemRve {
   }
 
   /// For a state that comes from elsewhere; forces that another friction or tangential stiffness has made are kept.
-  /// \throws InputError where contacts carry another stress by this law than the state has, since another law has made it
+  /// \throws InputError where contacts carry another stress by this law than the state has, since another law has made
+  /// it
   void require_fitting(State const& state) const {
     if (!state.packing.population) return;
     Stepper stepper;
@@ -168,16 +169,16 @@ struct DemRve {
             .inertial_number = state.inertial_number};
   }
 
-  /// How much the balance of a packing counts: all, below the pressure floor by its share of that. Tension, of bonds, counts as
-  /// much as pressure.
+  /// How much the balance of a packing counts: all, below the pressure floor by its share of that. Tension, of bonds,
+  /// counts as much as pressure.
   double weight_of(State const& state) const {
     double const pressure = mean_stress_size(state.stress);
     double const floor = floor_of(state);
     return pressure < floor ? pressure / floor : 1.0;
   }
 
-  /// Writes what was seen of a packing into its state, but for the packing itself. kinetic: sum of the principal values of the stress
-  /// that moving grains carry [Pa] \return whether the state may be committed
+  /// Writes what was seen of a packing into its state, but for the packing itself. kinetic: sum of the principal values
+  /// of the stress that moving grains carry [Pa] \return whether the state may be committed
   Verdict judge(State& state, StepObservation<dim> const& seen, double kinetic) const {
     if (!seen.stress.allFinite()) return {Status::failed, Reason::not_finite};
     state.stress = to_voigt_stress<dim>(seen.stress);
@@ -204,12 +205,12 @@ struct DemRve {
     return respond(committed, increment, trial, plan(committed, increment));
   }
 
-  /// A response that is not balanced to the tolerance, or has more than twice the inertial number, is `not_converged`; refined(plan) is a
-  /// slower one.
+  /// A response that is not balanced to the tolerance, or has more than twice the inertial number, is `not_converged`;
+  /// refined(plan) is a slower one.
   /// A strain per DEM step of more than `plan_slack` times the limit is `not_converged` with `too_few_steps`.
-  /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell gets
-  /// too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid` without
-  /// contacts.
+  /// Fails with `not_finite` on NaN or an increment beyond the logarithm's range, with `cell_collapsed` when the cell
+  /// gets too thin for its grains, with `too_deep` when an overlap exceeds the reduced radius of its contact; `fluid`
+  /// without contacts.
   Response<dim> respond(State const& committed, Gradient<dim> const& increment, State& trial, Plan steps) const {
     thread_local Stepper stepper;
     stepper.damping = damping;

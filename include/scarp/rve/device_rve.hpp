@@ -13,9 +13,10 @@
 
 namespace scarp {
 
-/// A `DemRve` whose packings are on a device and respond there, many at once where the device takes many. Plans, verdicts, tangents and
-/// saved states are the provider's, so that runs with and without a device resume each other; stresses agree to round-off. A packing
-/// that the device cannot follow (a touch that needs a slow search, a list beyond its room) responds on the processor.
+/// A `DemRve` whose packings are on a device and respond there, many at once where the device takes many. Plans,
+/// verdicts, tangents and saved states are the provider's, so that runs with and without a device resume each other;
+/// stresses agree to round-off. A packing that the device cannot follow (a touch that needs a slow search, a list
+/// beyond its room) responds on the processor.
 /// \tparam Rve a `DemRve` with periodic boundaries and a damping that needs no more than the time step
 template <class Rve>
 struct DeviceRve {
@@ -153,7 +154,8 @@ struct DeviceRve {
 
   /// Whether all points are to respond in one call.
   bool takes_many() const { return device && device->takes_many(); }
-  /// Writes the trial states of all requests, which have one provider, each with the response that `respond` then returns.
+  /// Writes the trial states of all requests, which have one provider, each with the response that `respond` then
+  /// returns.
   static void respond_together(std::span<Request const> requests) { requests.front().provider->respond_to(requests); }
 
   /// The provider's, of the packing that is read from the device.
@@ -269,7 +271,8 @@ struct DeviceRve {
         request.committed->stored, *request.increment, request.steps, {outline.stress, outline.verdict}};
   }
 
-  /// \throws InputError where device and processor respond differently, as by a law that was compiled to nothing for the device
+  /// \throws InputError where device and processor respond differently, as by a law that was compiled to nothing for
+  /// the device
   void require_equal_response(State const& state) const {
     constexpr int steps = 20;
     constexpr double tolerance = std::same_as<typename Types::Scalar, double> ? 1e-9 : 1e-3;

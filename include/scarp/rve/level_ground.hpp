@@ -11,9 +11,10 @@
 
 namespace scarp {
 
-/// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a small
-/// pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy. With an overconsolidation ratio
-/// the column goes through multiples of the overburdens, and each copy is unloaded to its own.
+/// Level ground of packings without a macroscopic solve: all its columns are alike, so one packing is consolidated at a
+/// small pressure and compressed one-dimensionally through the overburden of every depth; each depth gets a copy. With
+/// an overconsolidation ratio the column goes through multiples of the overburdens, and each copy is unloaded to its
+/// own.
 /// \tparam Grading a `SamplesGrains`
 template <class Grading>
 struct LevelGround {

@@ -35,7 +35,8 @@ struct PerturbationTangent {
     detail::validated(boundary);
   }
 
-  /// Central differences. What was reached by then is used where a packing does not settle, after `on_fallback` was called.
+  /// Central differences. What was reached by then is used where a packing does not settle, after `on_fallback` was
+  /// called.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const result = differentiate(packing, law);
@@ -47,8 +48,8 @@ struct PerturbationTangent {
 
   /// `towards`: modes where it is not zero are strained to that side only, since a sliding contact responds to one side
   /// unlike to the other.
-  /// \return not_converged / unbalanced when a settling reached its largest number of steps, else what the stepper reports; `steps`
-  /// receives the DEM steps taken
+  /// \return not_converged / unbalanced when a settling reached its largest number of steps, else what the stepper
+  /// reports; `steps` receives the DEM steps taken
   template <class PackingType>
   TangentResult<PackingType::dim> differentiate(
       PackingType const& packing, typename PackingType::Law const& law,

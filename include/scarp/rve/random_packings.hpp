@@ -47,9 +47,9 @@ struct IsotropicRecipe {
   }
 };
 
-/// One of several sources for every point, drawn at random by the point's number. Points that share a source lie anywhere:
-/// taken in turn, a structured mesh would get stripes. Sources of packings by depth, each from its own seed, give ground whose
-/// columns differ.
+/// One of several sources for every point, drawn at random by the point's number. Points that share a source lie
+/// anywhere: taken in turn, a structured mesh would get stripes. Sources of packings by depth, each from its own seed,
+/// give ground whose columns differ.
 /// \tparam Source a `PackingSource`
 template <class Source>
 struct RandomChoice {

@@ -27,8 +27,8 @@ PackingType outline_of(PackingType const& packing) {
 }
 }  // namespace detail
 
-/// A packing on the processor, on a device or on both: it goes where somebody needs it first, and is never changed, so that states
-/// share it. Several threads may call it.
+/// A packing on the processor, on a device or on both: it goes where somebody needs it first, and is never changed, so
+/// that states share it. Several threads may call it.
 /// \tparam PackingType a `Packing` \tparam Device a `BlockDevice`
 template <class PackingType, class Device>
 class StoredPacking {
@@ -57,8 +57,8 @@ class StoredPacking {
     return packing_;
   }
 
-  /// The state on a device and its header, which has a trouble where the device cannot observe the packing. What it needs is written
-  /// there first if it is not there.
+  /// The state on a device and its header, which has a trouble where the device cannot observe the packing. What it
+  /// needs is written there first if it is not there.
   std::pair<State, Header> on(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
     std::lock_guard const lock(mutex_);
     if (device_ != device) {

@@ -10,8 +10,8 @@ namespace scarp {
 
 namespace detail {
 
-/// Whether a search's step from this normal was the last one: it left a unit vector where it was, or turned it by so small an
-/// angle that the square of it, which is left, is round-off. A shape without an estimate returns zero.
+/// Whether a search's step from this normal was the last one: it left a unit vector where it was, or turned it by so
+/// small an angle that the square of it, which is left, is round-off. A shape without an estimate returns zero.
 template <int Dim>
 constexpr bool stands_still(ContactGeometry<Dim, double> const& touch, Point<Dim, double> const& before) {
   double change = 0.0;
@@ -40,9 +40,9 @@ bool is_certainly_least(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
 
 }  // namespace detail
 
-/// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might have
-/// less overlap, shapes with a support function use the slow but certain `minimum_translation`; of others a touch that
-/// does not stand still has an infinite `normal_error`.
+/// Touch of a pair with the normal iterated until it stands still. Where it does not, or where another direction might
+/// have less overlap, shapes with a support function use the slow but certain `minimum_translation`; of others a touch
+/// that does not stand still has an infinite `normal_error`.
 template <class Shape>
 ContactGeometry<Shape::dim, double> converged_contact(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
                                                       Point<Shape::dim, double> const& branch,

@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// A number with its first and second derivative by an angle, for support functions; arithmetic and roots follow the rules of
-/// differentiation.
+/// A number with its first and second derivative by an angle, for support functions; arithmetic and roots follow the
+/// rules of differentiation.
 /// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct AngleJet {
@@ -57,8 +57,8 @@ struct AngleJet {
   }
 };
 
-/// Base of a convex plane shape that is given by its support function alone: the distance h of the tangent line from the centre of
-/// mass, as a function of the line's normal. Area, inertia, bounds and contacts follow from it.
+/// Base of a convex plane shape that is given by its support function alone: the distance h of the tangent line from
+/// the centre of mass, as a function of the line's normal. Area, inertia, bounds and contacts follow from it.
 /// \code
 /// struct Oval : scarp::ConvexShape<Oval, 2> {  // two numbers: r [m], epsilon
 ///   template <class T>
@@ -109,7 +109,8 @@ struct ConvexShape {
     return made;
   }
 
-  /// Mean of the support function over eight normals [m]: for a smooth grain its perimeter over that of the unit circle.
+  /// Mean of the support function over eight normals [m]: for a smooth grain its perimeter over that of the unit
+  /// circle.
   template <class T>
   static constexpr T contact_radius(Pose<T> const& pose) {
     T sum = broadcast<T>(0);

@@ -12,7 +12,8 @@
 namespace scarp {
 
 /// Elliptical grain in the plane; size is (semi-major a, semi-minor b), orientation (cos, sin) of the major axis.
-/// The pose is the matrix of its support function, \f$ h(n)^2 = n \cdot A n,\; A = R\,diag(a^2, b^2) R^T \f$, as mean and deviator,
+/// The pose is the matrix of its support function, \f$ h(n)^2 = n \cdot A n,\; A = R\,diag(a^2, b^2) R^T \f$, as mean
+/// and deviator,
 /// \f$ A = [m + p,\ q;\ q,\ m - p] \f$.
 struct Ellipse {
   static constexpr int dim = 2;                     ///< ellipses lie in a plane
@@ -75,7 +76,8 @@ struct Ellipse {
     return {complete(a, roots[0]), complete(b, roots[1])};
   }
 
-  /// One step of Newton's method for a pair, by `support_contact`; `branch` [m], `normal` the unit vector to start from.
+  /// One step of Newton's method for a pair, by `support_contact`; `branch` [m], `normal` the unit vector to start
+  /// from.
   template <class T>
   static constexpr ContactGeometry<2, T> touch(std::array<T, 3> const& first, std::array<T, 3> const& second,
                                                Point<2, T> const& branch, Point<2, T> const& normal) {

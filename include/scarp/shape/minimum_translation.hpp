@@ -71,8 +71,8 @@ class MinimumTranslation {
                        {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
   }
 
-  /// Whether the overlap along a normal at which it is stationary is the least to 1e-10 of the grains' size. Next to the
-  /// normal it could be less by the square of the angle to the next probe alone, times the overlap.
+  /// Whether the overlap along a normal at which it is stationary is the least to 1e-10 of the grains' size. Next to
+  /// the normal it could be less by the square of the angle to the next probe alone, times the overlap.
   bool is_least_along(Point<2, double> const& normal) {
     auto const there = probe(normal);
     double const beside =
@@ -220,10 +220,10 @@ class MinimumTranslation {
 
 }  // namespace detail
 
-/// The touch of least overlap among all directions, whatever the shapes' curvature: convex polygons within and around the
-/// sum of the two shapes are refined where they leave a better direction possible (the expanding polytope of van den
-/// Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; an infinite `normal_error` where the least is not
-/// certain to 1e-10 of the grains' size (grains about one centre) or not finite.
+/// The touch of least overlap among all directions, whatever the shapes' curvature: convex polygons within and around
+/// the sum of the two shapes are refined where they leave a better direction possible (the expanding polytope of van
+/// den Bergen, 2001, for support functions), then Newton's method within a bracket. Slow; an infinite `normal_error`
+/// where the least is not certain to 1e-10 of the grains' size (grains about one centre) or not finite.
 template <HasSupport Shape>
 ContactGeometry<2, double> minimum_translation(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
                                                Point<2, double> const& branch) {

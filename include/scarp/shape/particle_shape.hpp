@@ -22,11 +22,12 @@ using Point = std::array<T, static_cast<std::size_t>(Dim)>;
 template <int Dim>
 inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 
-/// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is the
-/// unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
-/// contact point, the middle between the two support points. `normal_error` is the angle [rad] by which the search for the normal
-/// turned it last [rad], infinite where it found none, zero where the shape gives none: a touch that is far from its end is
-/// searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as squares.
+/// How two grains meet. `overlap` [m] is the least translation that parts them, positive when they touch; `normal` is
+/// the unit vector of that translation, from the first grain to the second; the arms [m] reach from each centre to the
+/// contact point, the middle between the two support points. `normal_error` is the angle [rad] by which the search for
+/// the normal turned it last [rad], infinite where it found none, zero where the shape gives none: a touch that is far
+/// from its end is searched anew, one that turned by less than 1e-8 has ended, which is right where errors fall as
+/// squares.
 /// \tparam Dim 2 or 3
 /// \tparam T a floating-point number or a `lanes::BasicPack`
 template <int Dim, class T>
@@ -100,7 +101,8 @@ constexpr auto part_pose(Size const& size, Orientation const& orientation, int p
   }
 }
 
-/// A shape makes poses, what the contact search needs of grains at their present orientation, from sizes and orientations.
+/// A shape makes poses, what the contact search needs of grains at their present orientation, from sizes and
+/// orientations.
 template <class Shape>
 concept HasPose = requires(SizeOf<Shape> const& size,
                            std::array<double, static_cast<std::size_t>(Shape::orientation_count)> const& orientation) {
@@ -117,9 +119,9 @@ concept NamesItsStart = requires {
   { Shape::warm_starts_normal } -> std::convertible_to<bool>;
 };
 
-/// touch(first, second, branch, normal): `branch` from the first grain's centre to the second's; `normal` a unit vector to
-/// start from where the shape stores one (`warm_starts_normal`), ignored otherwise. Arms reach from the grains' centres,
-/// also where the poses are those of parts.
+/// touch(first, second, branch, normal): `branch` from the first grain's centre to the second's; `normal` a unit vector
+/// to start from where the shape stores one (`warm_starts_normal`), ignored otherwise. Arms reach from the grains'
+/// centres, also where the poses are those of parts.
 template <class Shape>
 concept Touches = requires(PoseOf<Shape> const& pose, Point<Shape::dim, double> const& branch) {
   { Shape::touch(pose, pose, branch, branch) } -> std::same_as<ContactGeometry<Shape::dim, double>>;
@@ -149,8 +151,8 @@ concept ChecksSizes = requires(SizeOf<Shape> const& size) {
   Shape::check(size);
 };
 
-/// A shape counts its dimensions and the numbers of a grain. Packings turn the axes (cos, sin) of plane grains; grains in
-/// space are the same all round.
+/// A shape counts its dimensions and the numbers of a grain. Packings turn the axes (cos, sin) of plane grains; grains
+/// in space are the same all round.
 template <class Shape>
 concept CountsNumbers = requires {
   requires Shape::dim == 2 || Shape::dim == 3;
@@ -215,8 +217,9 @@ consteval bool check_shape() {
   return ParticleShape<Shape>;
 }
 
-/// Compiles the shape for several pairs at once, before the pair loop does: what cannot be compiled, an `if` on a distance
-/// for example, is then reported with this short name, by clang with the comment below, and not from within the loop.
+/// Compiles the shape for several pairs at once, before the pair loop does: what cannot be compiled, an `if` on a
+/// distance for example, is then reported with this short name, by clang with the comment below, and not from within
+/// the loop.
 template <class Shape>
 constexpr bool a_shape_meets_many_pairs_at_once_so_it_takes_lanes_select_for_if() {
   if constexpr (!is_precompiled<Shape>) {

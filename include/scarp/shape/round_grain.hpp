@@ -9,8 +9,8 @@
 
 namespace scarp {
 
-/// Where two discs or spheres meet, in the middle of their overlap. Those whose centres coincide are parted along the first
-/// axis.
+/// Where two discs or spheres meet, in the middle of their overlap. Those whose centres coincide are parted along the
+/// first axis.
 /// radii [m], branch from the first centre to the second [m]
 template <int Dim, class T>
 constexpr ContactGeometry<Dim, T> round_contact(T const& first, T const& second, Point<Dim, T> const& branch) {

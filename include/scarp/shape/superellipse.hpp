@@ -61,8 +61,8 @@ struct Superellipse {
     return bulge > 0.0 ? longer * std::pow(1.0 + std::pow(aspect, 2.0 / bulge), bulge / 2.0) : longer;
   }
 
-  /// Largest slope of the support function over a quarter of the boundary [m] per radian, to about 1e-7 of it: the best of a grid, then
-  /// golden sections about it.
+  /// Largest slope of the support function over a quarter of the boundary [m] per radian, to about 1e-7 of it: the best
+  /// of a grid, then golden sections about it.
   static double eccentricity(Size<double> const& size) {
     auto const shape = pose<double>(size, {1.0, 0.0});
     // Even steps of Barr's parameter follow the boundary where steps of the normal's angle leap over corners or flats.

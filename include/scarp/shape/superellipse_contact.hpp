@@ -21,7 +21,8 @@ struct SuperellipseSupport : Support<T> {
   T bend;  ///< 1/(q - 1), at least one
 };
 
-/// The normal among a superellipse's axes: `along` is the half axis nearer to it (of larger r |n|), `beside` the other one.
+/// The normal among a superellipse's axes: `along` is the half axis nearer to it (of larger r |n|), `beside` the other
+/// one.
 /// \tparam T a floating-point number or a `lanes::BasicPack`
 template <class T>
 struct SuperellipseFrame {
@@ -36,7 +37,8 @@ struct SuperellipseFrame {
   T ratio;          ///< the smaller r |n| over the larger one
 
   constexpr SuperellipseFrame() = default;
-  /// pose: (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)) with half axes in [m]; `normal` a unit vector in the frame of space
+  /// pose: (cos, sin, rx, ry, q - 1, 1/q, 1/(q - 1)) with half axes in [m]; `normal` a unit vector in the frame of
+  /// space
   constexpr SuperellipseFrame(std::array<T, 7> const& pose, Point<2, T> const& normal) {
     using std::abs;
     using std::max;

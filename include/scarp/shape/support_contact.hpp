@@ -22,10 +22,10 @@ struct Support {
 };
 
 /// One Newton step for the normal n that minimises \f$ f(\phi) = h_A(n) + h_B(n) - d \cdot n \f$, from a given start.
-/// \f$ f'' = \rho_A + \rho_B - f \f$. Overlap and arms are carried to the new normal by their own expansions, so that one
-/// evaluation serves both: error in the normal is second order in the correction, in the overlap third order, and both
-/// vanish at rest. Repeat with the returned normal until it stands still for a new pair; `normal_error` is the angle of the step.
-/// branch d [m] from the first centre to the second; `normal` a unit vector
+/// \f$ f'' = \rho_A + \rho_B - f \f$. Overlap and arms are carried to the new normal by their own expansions, so that
+/// one evaluation serves both: error in the normal is second order in the correction, in the overlap third order, and
+/// both vanish at rest. Repeat with the returned normal until it stands still for a new pair; `normal_error` is the
+/// angle of the step. branch d [m] from the first centre to the second; `normal` a unit vector
 template <class Shape, class Pose, class T>
 SCARP_DEVICE_CONSTEXPR ContactGeometry<2, T> support_contact(Pose const& first, Pose const& second,
                                                              Point<2, T> const& branch, Point<2, T> const& normal) {
@@ -40,8 +40,8 @@ SCARP_DEVICE_CONSTEXPR ContactGeometry<2, T> support_contact(Pose const& first, 
   T const largest_turn = broadcast<T>(0.5);  // radians; keeps a poor start from overshooting
   T const turn = lanes::at_least(lanes::at_most(-slope / curvature, largest_turn), -largest_turn);
 
-  // 1/sqrt(1 + excess) by its series: the stored normal is a unit vector and turns little in a step; a poor start of a new
-  // pair becomes one while the touch is iterated.
+  // 1/sqrt(1 + excess) by its series: the stored normal is a unit vector and turns little in a step; a poor start of a
+  // new pair becomes one while the touch is iterated.
   T const excess = (normal[0] * normal[0] + normal[1] * normal[1]) * (broadcast<T>(1) + turn * turn) - broadcast<T>(1);
   T const shrink = broadcast<T>(1) - excess * (broadcast<T>(0.5) - excess * broadcast<T>(0.375));
   Point<2, T> const turned{(normal[0] + turn * tangent[0]) * shrink, (normal[1] + turn * tangent[1]) * shrink};

@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// What follows from the support function h of a convex plane grain by sums over 1024 normals: integrals to round-off where h is
-/// smooth (periodic trapezoidal rule), largest values to a millionth (parabola through three of them).
+/// What follows from the support function h of a convex plane grain by sums over 1024 normals: integrals to round-off
+/// where h is smooth (periodic trapezoidal rule), largest values to a millionth (parabola through three of them).
 struct SupportIntegrals {
   double content = 0.0;           ///< area, \f$ \int h (h + h'') / 2\,d\phi \f$ [m2]
   double gyration_squared = 0.0;  ///< polar moment about the centre over the area [m2]

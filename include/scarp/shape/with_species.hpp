@@ -11,7 +11,8 @@
 
 namespace scarp {
 
-/// Grains of one shape and of several species, for `LawPerSpecies`: size is that of the shape, then the species 1 to `Species`.
+/// Grains of one shape and of several species, for `LawPerSpecies`: size is that of the shape, then the species 1 to
+/// `Species`.
 template <CheckedShape Shape, int Species>
 struct WithSpecies {
   using Bare = Shape;                                                    ///< grains without species

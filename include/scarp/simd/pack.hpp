@@ -128,13 +128,14 @@ constexpr bool any_of(bool condition) { return condition; }    ///< The conditio
 constexpr bool none_of(bool condition) { return !condition; }  ///< Whether the condition of a single number fails.
 constexpr bool all_of(bool condition) { return condition; }    ///< The condition of a single number.
 
-/// Types whose every value a pack of such scalars holds unchanged; plain integers are let in for the sake of `2 * pack`.
+/// Types whose every value a pack of such scalars holds unchanged; plain integers are let in for the sake of
+/// `2 * pack`.
 template <class Number, class Scalar>
 concept FitsInto = std::same_as<Number, int> || std::same_as<Number, Scalar> ||
     (std::same_as<Number, float>&& std::same_as<Scalar, double>);
 
-/// Scalars side by side in the compiler's own vector; laws and shapes accept it in place of one. The width is part of the
-/// type, because sources for different instruction sets may be linked together.
+/// Scalars side by side in the compiler's own vector; laws and shapes accept it in place of one. The width is part of
+/// the type, because sources for different instruction sets may be linked together.
 /// \tparam Scalar float or double
 /// \tparam Width number of lanes, a power of two
 template <class Scalar, std::size_t Width>
@@ -149,7 +150,8 @@ struct BasicPack {
 
   BasicPack() = default;
   [[gnu::always_inline]] explicit BasicPack(Vector const& lanes) : vector(lanes) {}  ///< From the compiler's vector.
-  /// The same number in every lane; a double is rounded to lanes of single precision where that is requested, by `T(0.1)`.
+  /// The same number in every lane; a double is rounded to lanes of single precision where that is requested, by
+  /// `T(0.1)`.
   template <class Number>
     requires(FitsInto<Number, Scalar> || std::same_as<Number, double>)
   [[gnu::always_inline]] explicit(!FitsInto<Number, Scalar>) BasicPack(Number number)
@@ -203,7 +205,8 @@ struct BasicPack {
   }
 };
 
-/// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as quads.
+/// As many scalars as one vector register of the target holds, at most eight: rows of more lanes cannot be read as
+/// quads.
 template <class Scalar>
 inline constexpr std::size_t lane_count = register_bytes / sizeof(Scalar) < 8 ? register_bytes / sizeof(Scalar) : 8;
 

@@ -6,8 +6,8 @@
 
 #include "scarp/simd/pack.hpp"
 
-// Functions of packs with the names of <cmath> and <algorithm>. Found by their arguments: a law writes `using std::sqrt;` and
-// calls `sqrt(x)` for packs and numbers alike.
+// Functions of packs with the names of <cmath> and <algorithm>. Found by their arguments: a law writes
+// `using std::sqrt;` and calls `sqrt(x)` for packs and numbers alike.
 namespace scarp::lanes {
 
 namespace detail {
@@ -127,7 +127,8 @@ template <class Scalar, std::size_t Width>
 BasicPack<Scalar, Width> hypot(BasicPack<Scalar, Width> const& x, BasicPack<Scalar, Width> const& y) {
   return detail::lane_by_lane([](Scalar a, Scalar b) { return std::hypot(a, b); }, x, y);
 }
-/// cbrt, exp, log, tanh, sin, cos, tan, asin, acos, atan, floor and ceil of a pack, lane after lane by the standard functions.
+/// cbrt, exp, log, tanh, sin, cos, tan, asin, acos, atan, floor and ceil of a pack, lane after lane by the standard
+/// functions.
 #define SCARP_LANE_BY_LANE(FUNCTION)                                                   \
   template <class Scalar, std::size_t Width>                                           \
   BasicPack<Scalar, Width> FUNCTION(BasicPack<Scalar, Width> const& x) {               \

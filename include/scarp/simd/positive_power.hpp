@@ -27,8 +27,8 @@ struct FloatBits {
   static constexpr std::size_t exp_terms = sizeof(Scalar) == 8 ? 12 : 7;
 };
 
-/// A power series cut off so that what is left errs evenly from `low` to `high`: the highest powers are removed with the
-/// multiples of Chebyshev's polynomials that hold them (Lanczos's economisation).
+/// A power series cut off so that what is left errs evenly from `low` to `high`: the highest powers are removed with
+/// the multiples of Chebyshev's polynomials that hold them (Lanczos's economisation).
 template <class Scalar, std::size_t Terms, std::size_t More>
 consteval std::array<Scalar, Terms> economised(std::array<long double, More> series, long double low,
                                                long double high) {
@@ -52,8 +52,8 @@ consteval std::array<Scalar, Terms> economised(std::array<long double, More> ser
   return cut;
 }
 
-/// log2((1 + t) / (1 - t)) / t in powers of t^2, for arguments of the logarithm from sqrt(1/2) to sqrt(2). Errors relative to 1:
-/// 1e-18 in double, 1e-9 in float.
+/// log2((1 + t) / (1 - t)) / t in powers of t^2, for arguments of the logarithm from sqrt(1/2) to sqrt(2). Errors
+/// relative to 1: 1e-18 in double, 1e-9 in float.
 template <class Scalar>
 consteval auto log_coefficients() {
   std::array<long double, 14> series{};
@@ -180,9 +180,9 @@ template <class Scalar, std::size_t Width, std::size_t Count>
 
 }  // namespace detail
 
-/// base^exponent of positive normal numbers, all lanes at once. The relative error is below 5e-16 (1 + |ln result|) in double,
-/// 3e-7 (1 + |ln result|) in float; results below 2^-1021 or above 2^1021 become these (2^-125, 2^125 in float).
-/// Two packs side by side cost little more than one.
+/// base^exponent of positive normal numbers, all lanes at once. The relative error is below 5e-16 (1 + |ln result|) in
+/// double, 3e-7 (1 + |ln result|) in float; results below 2^-1021 or above 2^1021 become these (2^-125, 2^125 in
+/// float). Two packs side by side cost little more than one.
 template <class Scalar, std::size_t Width, std::size_t Count>
 [[gnu::always_inline]] inline std::array<BasicPack<Scalar, Width>, Count> positive_powers(
     std::array<BasicPack<Scalar, Width>, Count> const& base,

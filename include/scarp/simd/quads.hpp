@@ -28,7 +28,8 @@ struct FourScalars {
 
 namespace detail {
 
-/// Transposes 4 x 4 blocks: entry j of block k of the result's vector i is entry i of block k of the argument's vector j.
+/// Transposes 4 x 4 blocks: entry j of block k of the result's vector i is entry i of block k of the argument's vector
+/// j.
 template <class Vector>
 std::array<Vector, 4> transpose_blocks(std::array<Vector, 4> const& rows) {
   auto const& [a, b, c, d] = rows;
@@ -53,8 +54,8 @@ std::array<Vector, 4> transpose_blocks(std::array<Vector, 4> const& rows) {
 
 }  // namespace detail
 
-/// One quad per lane, as four packs: pack c holds entry c of quad_of(lane). Where registers hold four or eight lanes the quads
-/// are loaded whole and transposed in registers, with half the loads of a gather.
+/// One quad per lane, as four packs: pack c holds entry c of quad_of(lane). Where registers hold four or eight lanes
+/// the quads are loaded whole and transposed in registers, with half the loads of a gather.
 template <class Scalar, std::size_t Width = lane_count<Scalar>, class QuadOf>
 std::array<BasicPack<Scalar, Width>, 4> from_quads(QuadOf const& quad_of) {
   std::array<BasicPack<Scalar, Width>, 4> packs;

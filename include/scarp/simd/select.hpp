@@ -9,7 +9,8 @@
 
 namespace scarp::lanes {
 
-/// `yes` where the condition holds, `no` elsewhere; both are always computed. The condition of numbers is a bool, of packs a mask.
+/// `yes` where the condition holds, `no` elsewhere; both are always computed. The condition of numbers is a bool, of
+/// packs a mask.
 template <class T>
 constexpr T select(bool condition, T const& yes, T const& no) {
   return condition ? yes : no;

@@ -16,7 +16,8 @@ struct SquareRoot {
   T inverse;  ///< \f$ 1/\sqrt{x} \f$
 };
 
-/// Square roots of two positive numbers, or of packs of them; infinities and zeros are not among them. They share a division.
+/// Square roots of two positive numbers, or of packs of them; infinities and zeros are not among them. They share a
+/// division.
 template <class T>
 [[gnu::always_inline]] inline constexpr std::array<SquareRoot<T>, 2> square_roots(T const& a, T const& b) {
 #if defined(__CUDA_ARCH__) && !defined(SCARP_DEVICE_IEEE)
@@ -35,8 +36,9 @@ template <class T>
 }
 
 #if defined(__AVX512VL__)
-/// The same without roots and divisions, whose unit would be what others wait for: from the processor's own estimate of the
-/// inverse, which errs by 2^-14 at most, by a series in \f$ e = 1 - x y^2 \f$. Relative errors are below two epsilons.
+/// The same without roots and divisions, whose unit would be what others wait for: from the processor's own estimate of
+/// the inverse, which errs by 2^-14 at most, by a series in \f$ e = 1 - x y^2 \f$. Relative errors are below two
+/// epsilons.
 template <class Scalar>
 [[gnu::always_inline]] inline std::array<SquareRoot<BasicPack<Scalar, 8>>, 2> square_roots(
     BasicPack<Scalar, 8> const& a, BasicPack<Scalar, 8> const& b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// \file
-/// Vectors of the kernel: arrays of numbers or of packs. A number alone is a tangential quantity or a rotation in the plane.
+/// Vectors of the kernel: arrays of numbers or of packs. A number alone is a tangential quantity or a rotation in the
+/// plane.
 #pragma once
 
 #include <array>

@@ -56,8 +56,8 @@ class SCARP_EXPORT Analysis {
   /// \throws InputError for an unknown boundary or axis
   double displacement(std::string_view side, int axis) const;
 
-  /// Force [N] of the support of a boundary: what its nodes carry, of ground and of what is attached, less their loads. Below the load factor 1 it is that of ground
-  /// which was in equilibrium at first, so that the whole weight counts.
+  /// Force [N] of the support of a boundary: what its nodes carry, of ground and of what is attached, less their loads.
+  /// Below the load factor 1 it is that of ground which was in equilibrium at first, so that the whole weight counts.
   /// \throws InputError for an unknown boundary
   Vector<Dim> reaction(std::string_view side) const;
 

@@ -24,12 +24,13 @@ struct OwnVectorOperations {
   }
 };
 
-/// Anderson acceleration of a fixed-point iteration x <- x + d(x), for the solver of a program that calls providers: the next
-/// iterate minimises the combination of the last corrections in the least-squares sense (Anderson 1965; Walker and Ni 2011,
-/// SIAM J. Numer. Anal. 49). The least squares are solved by Gram and Schmidt's orthogonalisation, newest change first; a change
-/// that repeats newer ones is left out.
-/// Vector: its copies are independent. Operations: double dot(Vector, Vector), over all processes where a vector is shared out among
-/// them, and void add(double factor, Vector, Vector& to). All processes must call next() and forget() alike.
+/// Anderson acceleration of a fixed-point iteration x <- x + d(x), for the solver of a program that calls providers:
+/// the next iterate minimises the combination of the last corrections in the least-squares sense (Anderson 1965; Walker
+/// and Ni 2011, SIAM J. Numer. Anal. 49). The least squares are solved by Gram and Schmidt's orthogonalisation, newest
+/// change first; a change that repeats newer ones is left out.
+/// Vector: its copies are independent. Operations: double dot(Vector, Vector), over all processes where a vector is
+/// shared out among them, and void add(double factor, Vector, Vector& to). All processes must call next() and forget()
+/// alike.
 /// \code
 /// struct OfPetsc {  // deal.II's PETScWrappers::MPI::Vector
 ///   double dot(Vector const& first, Vector const& second) const { return first * second; }
@@ -40,7 +41,8 @@ struct OwnVectorOperations {
 template <class Vector, class Operations = OwnVectorOperations>
 class AndersonMixing {
  public:
-  /// depth: number of earlier iterates that are combined; 0 is the plain iteration \throws InputError for a negative one
+  /// depth: number of earlier iterates that are combined; 0 is the plain iteration \throws InputError for a negative
+  /// one
   explicit AndersonMixing(int depth = 6, Operations operations = {})
       : depth_(require_at_least("depth of Anderson's mixing", depth, 0)), operations_(std::move(operations)) {}
 

@@ -10,7 +10,8 @@
 
 namespace scarp {
 
-/// When ground has failed. A load step that becomes too small is no failure by itself: one packing or one bad element can cause it.
+/// When ground has failed. A load step that becomes too small is no failure by itself: one packing or one bad element
+/// can cause it.
 struct CollapseSettings {
   double failed = 100.0;  ///< largest displacement gradient per load, over that of the first step: the ground fails
   double failing = 10.0;  ///< the same where no equilibrium follows: less means that something else stopped it
@@ -43,8 +44,8 @@ struct StrengthReduction {
   }
 };
 
-/// Observer of the largest displacement gradient of a step per load, and of how it grows since the last knot of loads and motions.
-/// Stops a run when the ground has failed.
+/// Observer of the largest displacement gradient of a step per load, and of how it grows since the last knot of loads
+/// and motions. Stops a run when the ground has failed.
 class CollapseWatch {
  public:
   /// failed: ratio at which it stops a run
@@ -72,7 +73,8 @@ class CollapseWatch {
     }
   }
   bool wants_stop() const { return ratio_ >= failed_; }  ///< Whether the ground has failed.
-  /// Gradient per load of the last attempt over that of the first step that moved; of the last step where a point has stopped it.
+  /// Gradient per load of the last attempt over that of the first step that moved; of the last step where a point has
+  /// stopped it.
   double ratio() const { return beyond_; }
 
  private:
@@ -94,9 +96,10 @@ struct [[nodiscard]] Collapse {
   bool stands() const { return run.verdict.acceptable(); }  ///< Whether the load was carried.
 };
 
-/// Raises the load factor of an analysis to `to`, or until the ground fails. The first step that moves, of this call and after each knot
-/// of loads and motions, is what later ones are compared with: begin where the ground is still stiff. Ground with friction fails slowly:
-/// compare the load with that of a larger `failed`. An observer watches too; what it ends has not failed.
+/// Raises the load factor of an analysis to `to`, or until the ground fails. The first step that moves, of this call
+/// and after each knot of loads and motions, is what later ones are compared with: begin where the ground is still
+/// stiff. Ground with friction fails slowly: compare the load with that of a larger `failed`. An observer watches too;
+/// what it ends has not failed.
 /// \throws InputError for settings outside of their range
 template <int Dim, class Observer>
 Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings const& settings, Observer& observer) {
@@ -142,10 +145,12 @@ struct [[nodiscard]] SafetyFactor {
   bool is_found() const { return stands > 0.0 && fails > 0.0; }  ///< Whether both are known.
 };
 
-/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. The
-/// interval between a factor that stands and one that fails is halved until it is within the tolerance. Use small strain: in large strain ground may stiffen by its new shape.
+/// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor.
+/// The interval between a factor that stands and one that fails is halved until it is within the tolerance. Use small
+/// strain: in large strain ground may stiffen by its new shape.
 /// \return stands 0 where `from` fails, fails 0 where `to` stands or a run is stopped by something else than failure
-/// \throws InputError for settings outside of their range, and for a model with loads that change beyond the load factor
+/// \throws InputError for settings outside of their range, and for a model with loads that change beyond the load
+/// factor
 template <class MakeModel>
 SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction const& settings = {}) {
   detail::validated(settings);

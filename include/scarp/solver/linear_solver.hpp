@@ -35,8 +35,9 @@ class LinearSolver {
 using LinearSolverFactory = std::function<std::unique_ptr<LinearSolver>()>;
 
 /// One of Eigen's direct solvers. The ordering is reused while the matrix keeps its pattern.
-/// \tparam Factors such as `Eigen::UmfPackLU<SparseMatrix>`, or those of symmetric matrices. Factors without transpose() solve the
-/// transposed system as if it were symmetric, which lowers the estimate of a condition number at most.
+/// \tparam Factors such as `Eigen::UmfPackLU<SparseMatrix>`, or those of symmetric matrices. Factors without
+/// transpose() solve the transposed system as if it were symmetric, which lowers the estimate of a condition number at
+/// most.
 template <class Factors>
 class DirectSolver final : public LinearSolver {
  public:

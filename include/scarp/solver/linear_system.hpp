@@ -18,13 +18,14 @@
 
 namespace scarp {
 
-/// Stiffness [N/m] of a ground, shape (degrees of freedom, twice). Where the stress of a point changes with its own strain and
-/// with the mean strain around it,
-/// \f$ K = K(\sigma, C^{own}) + \sum_i v_i B_i^T (C_i + C^{mean}_i) \sum_j w_{ij} B_j \f$: the second part couples all points within
-/// the length and is not symmetric; it is applied, never assembled.
+/// Stiffness [N/m] of a ground, shape (degrees of freedom, twice). Where the stress of a point changes with its own
+/// strain and with the mean strain around it,
+/// \f$ K = K(\sigma, C^{own}) + \sum_i v_i B_i^T (C_i + C^{mean}_i) \sum_j w_{ij} B_j \f$: the second part couples all
+/// points within the length and is not symmetric; it is applied, never assembled.
 struct GroundStiffness {
   SparseMatrix own;  ///< what the elements hold without their neighbours
-  /// Forces of the second part, of the mesh's degrees of freedom, the first ones; shared by copies, none for local ground.
+  /// Forces of the second part, of the mesh's degrees of freedom, the first ones; shared by copies, none for local
+  /// ground.
   std::shared_ptr<LinearMap const> around{};
   LinearIteration iterate = nullptr;  ///< solves with the second part
 
@@ -38,9 +39,9 @@ struct GroundStiffness {
   }
 };
 
-/// Equations of the free degrees of freedom: their numbering, stiffness and factors. They are solved directly; with a part that is
-/// not assembled by an iteration with the factors of the other one: that handles waves shorter than the length, of which there are
-/// many; means see the few that are longer.
+/// Equations of the free degrees of freedom: their numbering, stiffness and factors. They are solved directly; with a
+/// part that is not assembled by an iteration with the factors of the other one: that handles waves shorter than the
+/// length, of which there are many; means see the few that are longer.
 class LinearSystem {
  public:
   /// It has no equations before the first factorize().
@@ -97,8 +98,8 @@ class LinearSystem {
     return forces + gather(all);
   }
 
-  /// Moves an increment [m], kept at its prescribed entries, by what removes unbalanced forces [N], both on all degrees of freedom.
-  /// It stays where there is no solution.
+  /// Moves an increment [m], kept at its prescribed entries, by what removes unbalanced forces [N], both on all degrees
+  /// of freedom. It stays where there is no solution.
   Verdict correct(Eigen::VectorXd& increment, Eigen::VectorXd const& unbalanced) {
     if (free_count() == 0) return {};
     Eigen::VectorXd const force = -gather(unbalanced);
@@ -114,8 +115,9 @@ class LinearSystem {
   /// |K x - b| / |b| of the last correction.
   double residual() const { return residual_; }
 
-  /// Estimate of the condition number of the matrix in the 1-norm, |A| |A^-1|, from a few solves: a lower bound, seldom below a
-  /// third of the truth (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). Infinite when a solve is not finite.
+  /// Estimate of the condition number of the matrix in the 1-norm, |A| |A^-1|, from a few solves: a lower bound, seldom
+  /// below a third of the truth (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). Infinite when a
+  /// solve is not finite.
   double condition() const {
     Eigen::Index const size = matrix_.rows();
     if (size == 0) return 1.0;
@@ -144,8 +146,9 @@ class LinearSystem {
     return norm * inverse_norm;
   }
 
-  /// The degree of freedom that a singular or nearly singular matrix holds least: largest entry of the vector that it maps nearest
-  /// to nothing, by inverse iteration with a small shift; any one where the whole matrix is zero. -1 when that fails.
+  /// The degree of freedom that a singular or nearly singular matrix holds least: largest entry of the vector that it
+  /// maps nearest to nothing, by inverse iteration with a small shift; any one where the whole matrix is zero. -1 when
+  /// that fails.
   int weakest_dof() const {
     Eigen::Index const size = matrix_.rows();
     if (size == 0 || !matrix_.coeffs().allFinite()) return -1;

@@ -13,9 +13,10 @@
 
 namespace scarp {
 
-/// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its own
-/// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without attachment, and
-/// with a field, this is one linear solve.
+/// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its
+/// own
+/// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without
+/// attachment, and with a field, this is one linear solve.
 template <int Dim>
 class LinearisedStep {
   using Problem = scarp::Problem<Dim>;
@@ -62,8 +63,8 @@ class LinearisedStep {
     report.weak_dof = committed_weak_dof_;
   }
 
-  /// Moves an increment [m], kept at its prescribed entries, to where forces balance when the loads have grown by `more` [N]
-  /// since the linearisation. What cannot be balanced is left to the next linearisation.
+  /// Moves an increment [m], kept at its prescribed entries, to where forces balance when the loads have grown by
+  /// `more` [N] since the linearisation. What cannot be balanced is left to the next linearisation.
   Verdict solve(Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
     return contact_ ? contact_->follow(ground_, increment, more)
                     : system_.correct(increment, ground_.unbalanced(increment, more));

@@ -12,8 +12,8 @@
 
 namespace scarp {
 
-/// Watches a run: called after every attempt at a step, accepted or not; may stop the run, before an attempt or within one, which
-/// then counts as never made.
+/// Watches a run: called after every attempt at a step, accepted or not; may stop the run, before an attempt or within
+/// one, which then counts as never made.
 template <class Observer, class Problem>
 concept ObservesSteps = requires(Observer& observer, Problem const& problem, StepReport const& report) {
   observer.attempted(problem, report);
@@ -69,7 +69,8 @@ struct [[nodiscard]] RunReport {
                 largest_residual, material_seconds, seconds)
 };
 
-/// Where a run stands between two attempts: with the problem and the session it is all that the rest of the run follows from.
+/// Where a run stands between two attempts: with the problem and the session it is all that the rest of the run follows
+/// from.
 struct RunState {
   RunReport report;        ///< of the run so far
   double increment = 0.0;  ///< of the load, for the next attempt
@@ -77,8 +78,9 @@ struct RunState {
   SCARP_MEMBERS(report, increment)
 };
 
-/// An observer that saves runs and continues saved ones: begins(problem, session, state), before the first attempt, may put back
-/// what was saved; between(...) is called before every attempt and ends(...) after the last one where the run stands.
+/// An observer that saves runs and continues saved ones: begins(problem, session, state), before the first attempt, may
+/// put back what was saved; between(...) is called before every attempt and ends(...) after the last one where the run
+/// stands.
 template <class Observer, class Problem, class Session>
 concept KeepsRuns = ObservesSteps<Observer, Problem> &&
     requires(Observer& observer, Problem& problem, Session& session, RunState& state) {
@@ -87,8 +89,8 @@ concept KeepsRuns = ObservesSteps<Observer, Problem> &&
   observer.ends(problem, session, state);
 };
 
-/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's, the last failure is that of the
-/// last stage that had one.
+/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's, the last failure is
+/// that of the last stage that had one.
 inline RunReport joined(RunReport const& earlier, RunReport later) {
   if (later.refused == 0) {
     later.last_failure = earlier.last_failure;
@@ -105,10 +107,10 @@ inline RunReport joined(RunReport const& earlier, RunReport later) {
   return later;
 }
 
-/// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step before
-/// it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and halved.
-/// A step ends at the knots of loads and prescribed motions, so that no peak is passed by. Only a step whose residual
-/// and points are all acceptable is committed.
+/// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step
+/// before it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and
+/// halved. A step ends at the knots of loads and prescribed motions, so that no peak is passed by. Only a step whose
+/// residual and points are all acceptable is committed.
 struct LoadStepping {
   double first = 1e-3;                      ///< load increment of the first step
   double smallest = 1e-7;                   ///< increment below which the run gives up
@@ -228,8 +230,8 @@ struct LoadStepping {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// From the committed state at the step's load to equilibrium at what predict() begins with, which is at the load `aim` or before;
-  /// an interrupted attempt counts as never made.
+  /// From the committed state at the step's load to equilibrium at what predict() begins with, which is at the load
+  /// `aim` or before; an interrupted attempt counts as never made.
   /// \return whether the session could begin
   template <class Session, class Problem, class Observer, class Predict>
   static bool try_step(Session& session, Problem const& problem, double aim, StepReport& step, RunReport& run,

@@ -26,8 +26,8 @@ MaterialPoints<Dim> points_at(Grid<Dim> const& grid, double level, Regions const
 }
 }  // namespace detail
 
-/// The material points of a grid. surface_level [m]: height of the ground surface, from which depths are measured; regions: a
-/// list, or a tuple of regions of different types
+/// The material points of a grid. surface_level [m]: height of the ground surface, from which depths are measured;
+/// regions: a list, or a tuple of regions of different types
 /// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and
 /// a surface above or below the mesh
 template <int Dim, class Regions>

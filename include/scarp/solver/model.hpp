@@ -31,9 +31,10 @@ namespace scarp {
 /// Analysis analysis(model);
 /// RunReport const run = analysis.to(1.0);
 /// \endcode
-/// The materials' initial stresses need not balance the loads: what is missing is held by forces which fade while the load factor
-/// goes from 0 to 1, and the loads grow meanwhile. That is how ground is balanced, and how it is excavated: give the mesh without
-/// what is taken away, and the stress that was there. Then the load factor drives what has an amplitude of its own.
+/// The materials' initial stresses need not balance the loads: what is missing is held by forces which fade while the
+/// load factor goes from 0 to 1, and the loads grow meanwhile. That is how ground is balanced, and how it is excavated:
+/// give the mesh without what is taken away, and the stress that was there. Then the load factor drives what has an
+/// amplitude of its own.
 template <int Dim>
 class SCARP_EXPORT Model {
  public:
@@ -112,7 +113,8 @@ class SCARP_EXPORT Model {
     require_not_at_rest();
     weights_[detail::index(region_number(*grid_, region))] = require_not_negative("unit weight", unit_weight);
   }
-  /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an amplitude.
+  /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an
+  /// amplitude.
   /// \throws InputError for an unknown boundary
   void traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude = {});
   /// Vertical pressure [Pa], downwards along the last axis, on boundaries of the initial mesh, as a traction.
@@ -124,10 +126,10 @@ class SCARP_EXPORT Model {
     for (auto const side : sides) surcharges_[std::string(side)] += pressure;
   }
 
-  /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of the first one, and of all
-  /// sides with a surcharge. Others belong to the material itself.
-  /// \throws InputError for an unknown region, one without weight, surcharges that differ, and ground that is highest in one place
-  /// only where no level was set
+  /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of the first one,
+  /// and of all sides with a surcharge. Others belong to the material itself.
+  /// \throws InputError for an unknown region, one without weight, surcharges that differ, and ground that is highest
+  /// in one place only where no level was set
   GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
     require_level_top();
     double const weight = weights_[detail::index(region.empty() ? 0 : region_number(*grid_, region))];

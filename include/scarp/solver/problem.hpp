@@ -24,8 +24,8 @@
 
 namespace scarp {
 
-/// A boundary-value problem in increments: elements, materials, constraints and loads that follow a load factor, and perhaps
-/// something attached to the mesh. Solvers and load stepping know nothing else, whatever the parts are made of.
+/// A boundary-value problem in increments: elements, materials, constraints and loads that follow a load factor, and
+/// perhaps something attached to the mesh. Solvers and load stepping know nothing else, whatever the parts are made of.
 template <int Dim>
 class SCARP_EXPORT Problem {
  public:
@@ -75,8 +75,8 @@ class SCARP_EXPORT Problem {
     auto const own = attached_ ? attached_->length() : std::nullopt;
     return own ? *own : extent<Dim>(grid_->nodes());
   }
-  /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it. Whether they
-  /// could result is that of the next evaluation.
+  /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it.
+  /// Whether they could result is that of the next evaluation.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
     if (attached_) static_cast<void>(attached_->add_forces(grid_->positions(), increment, forces));
@@ -87,12 +87,12 @@ class SCARP_EXPORT Problem {
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
   SparseMatrix stick_stiffness() const { return assembled(&detail::AttachedPart<Dim>::add_stick_stiffness); }
 
-  /// Forces are measured against the loads of a load factor, and a step of an attached field ends there, or at another one.
+  /// Forces are measured against the loads of a load factor; a step of an attached field ends there, or elsewhere.
   void set_load(double load, std::optional<double> field_at = {}) {
     load_now_ = loads_.at(load);
     if (attached_) attached_->at(field_at.value_or(load));
   }
-  /// First load factor beyond one where loads, prescribed motions or an attached field may turn; infinite beyond the last.
+  /// First load factor beyond one where loads, motions or an attached field may turn; infinite beyond the last.
   double next_knot(double load) const {
     double const next = std::min(loads_.next_knot(load), constraints_.next_knot(load));
     return attached_ ? std::min(next, attached_->next_knot(load)) : next;
@@ -109,7 +109,7 @@ class SCARP_EXPORT Problem {
   std::vector<Gradient<Dim>> const& gradients() const { return points_.gradients(); }
   /// Stress [Pa], tension positive, and verdict of each point in the last evaluation.
   std::vector<Response<Dim>> const& responses() const { return points_.responses(); }
-  /// Gradients of the elements in the last plan or evaluation: those that points see, or the ones that they see means of.
+  /// Gradients of the elements in the last plan or evaluation: those that points see, or see means of.
   std::vector<Gradient<Dim>> const& own_gradients() const { return points_.own_gradients(); }
   /// Cauchy stress [Pa] of each point, tension positive, without what a field of means adds.
   std::vector<VoigtStress<Dim>> committed_stresses() const { return points_.committed_stresses(executor_); }
@@ -126,7 +126,7 @@ class SCARP_EXPORT Problem {
   /// Whether the rotation in a gradient turns the stress that is there.
   bool turns_stresses() const { return grid_->turns_stresses(); }
 
-  /// Fixes every point's work for the load step from a predicted increment [m], shape (dof_count); the points' gradients are stored.
+  /// Fixes every point's work for the load step from a predicted increment [m], shape (dof_count), and its gradient.
   /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
   Verdict plan(Eigen::VectorXd const& increment, int* worst_point = nullptr) {
     Verdict const verdict = look(increment, worst_point);
@@ -146,8 +146,8 @@ class SCARP_EXPORT Problem {
     return evaluation;
   }
 
-  /// Evaluates the points whose last response is not converged with more inner steps, now and for the rest of the load step, at the increment
-  /// of the last evaluation.
+  /// Evaluates the points whose last response is not converged with more inner steps, now and for the rest of the load
+  /// step, at the increment of the last evaluation.
   /// \throws InputError for another increment
   Evaluation refine(Eigen::VectorXd const& increment) {
     require_evaluated("refined", increment);
@@ -166,8 +166,8 @@ class SCARP_EXPORT Problem {
     return evaluation;
   }
 
-  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means it
-  /// refers to this problem, and is void once these means are replaced.
+  /// Stiffness [N/m] of the elements at the increment of the last evaluation, with its stresses. Where points see means
+  /// it refers to this problem, and is void once these means are replaced.
   void ground_stiffness(Eigen::VectorXd const& increment, std::vector<VoigtTangent<Dim>> const& tangents,
                         GroundStiffness& stiffness) const {
     detail::ground_stiffness(*grid_, points_, executor_, of_nodes(increment), tangents, stiffness);
@@ -192,7 +192,7 @@ class SCARP_EXPORT Problem {
     return parts;
   }
 
-  /// Imbalance of an attached body over its own loads, which reactions of the ground would hide (0 without loads), or of a field.
+  /// Imbalance of a field, or of a body over its own loads, which reactions would hide (0 without loads).
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
     if (has_field()) return attached_->residual(unbalanced.tail(attached_->extra_dofs()));
     return detail::residual_beside(unbalanced, load_now_, whole_.free_dofs, grid_->dof_count());

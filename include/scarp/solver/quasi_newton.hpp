@@ -19,8 +19,8 @@ namespace scarp {
 template <class Rule, int Dim>
 class QuasiNewtonSession;
 
-/// Newton-type iteration for one load step: the tangent rule gives the points' tangents in each iteration. Every iteration
-/// moves the points along the straight path from their committed states to the iterate.
+/// Newton-type iteration for one load step: the tangent rule gives the points' tangents in each iteration. Every
+/// iteration moves the points along the straight path from their committed states to the iterate.
 template <class Rule = MaterialTangent>
   requires TangentRule<Rule, 2> || ChoosesTangentRule<Rule, 2>
 struct QuasiNewton {
@@ -29,8 +29,8 @@ struct QuasiNewton {
   int max_iterations = 30;         ///< of a load step; then it is given up
   double divergence_limit = 10.0;  ///< residual beyond which a step is given up
   int max_refinements = 8;         ///< of points that have not converged, in each iteration
-  /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one left
-  /// unbalanced; after a rejected one, and for a field on points with exact tangents, it is linear.
+  /// A step's first guess is the motion of the step before, scaled by the load, and the correction of what that one
+  /// left unbalanced; after a rejected one, and for a field on points with exact tangents, it is linear.
   bool repeats_motion = true;
   int tangent_interval = 4;  ///< load steps that share one evaluation of the provider's tangents
   Rule rule{};               ///< working tangent of each point
@@ -53,7 +53,7 @@ struct QuasiNewton {
   using Session = QuasiNewtonSession<Rule, Problem::dim>;
 };
 
-/// The iteration of a `QuasiNewton` on one problem: factorisation, learned tangents. Its members are defined outside, for a library.
+/// The iteration of a `QuasiNewton` on one problem: factorisation, learned tangents.
 /// \tparam Rule of the `QuasiNewton`
 template <class Rule, int Dim>
 class SCARP_EXPORT QuasiNewtonSession {
@@ -74,11 +74,11 @@ class SCARP_EXPORT QuasiNewtonSession {
   Verdict begin(double from, double to);
   /// Adds the condition and the weak degree of freedom that begin() found.
   void describe(StepReport& report) const { linearised_.describe(report); }
-  /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that step left
-  /// unbalanced; else a linear solve.
+  /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that
+  /// step left unbalanced; else a linear solve.
   Eigen::VectorXd predict(double from, double to);
 
-  /// Iterates from a prediction, which ends as the increment in equilibrium; the points' trial states then belong to it.
+  /// Iterates from a prediction, which ends as the increment in equilibrium, with the points' trial states.
   void correct(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop = {});
 
   /// Commits an increment in equilibrium; the learned tangents start the next step.

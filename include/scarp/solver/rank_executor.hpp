@@ -41,9 +41,10 @@ class MpiSession {
   }
 };
 
-/// An MPI rank: all ranks run the same solver, points are distributed cyclically, each rank holds the states of its own.
-/// Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose packings
-/// cost alike, belong to different ranks, so that work is shared out evenly. Another executor runs the tasks within the rank.
+/// An MPI rank: all ranks run the same solver, points are distributed cyclically, each rank holds the states of its
+/// own. Gradients are known everywhere; only stresses, tangents and verdicts travel. Neighbouring points, whose
+/// packings cost alike, belong to different ranks, so that work is shared out evenly. Another executor runs the tasks
+/// within the rank.
 class RankExecutor : public Executor {
  public:
   /// MPI must have been initialised (by MpiSession or by the program).
@@ -66,8 +67,8 @@ class RankExecutor : public Executor {
   /// All tasks, on this rank.
   void for_each(int count, std::function<void(int)> const& task) const override { local_.for_each(count, task); }
 
-  /// Work that all ranks begin alike. What it throws on one of them is thrown on all: there as it is, elsewhere as InputError with
-  /// the same words and the rank.
+  /// Work that all ranks begin alike. What it throws on one of them is thrown on all: there as it is, elsewhere as
+  /// InputError with the same words and the rank.
   void together(std::function<void()> const& work) const override {
     std::exception_ptr own;
     std::string words;

@@ -12,7 +12,8 @@
 
 namespace scarp {
 
-/// start(provider, learned): a point's tangent at the start of a step, from the provider's and the one that the step before ended with.
+/// start(provider, learned): a point's tangent at the start of a step, from the provider's and the one that the step
+/// before ended with.
 template <class Rule, int Dim>
 concept StartsTangent = requires(Rule const& rule, VoigtTangent<Dim> const& tangent) {
   { rule.template start<Dim>(tangent, tangent) } -> std::same_as<VoigtTangent<Dim>>;
@@ -25,7 +26,8 @@ concept LearnsFromResponses = requires(Rule const& rule, VoigtTangent<Dim> const
   { rule.template update<Dim>(tangent, tangent, strain, stress) } -> std::same_as<VoigtTangent<Dim>>;
 };
 
-/// at_trial(trial, first): the tangent from that of the provider's trial state; `first` is the one that the run began with.
+/// at_trial(trial, first): the tangent from that of the provider's trial state; `first` is the one that the run began
+/// with.
 template <class Rule, int Dim>
 concept FollowsTrialTangent = requires(Rule const& rule, VoigtTangent<Dim> const& tangent) {
   { rule.template at_trial<Dim>(tangent, tangent) } -> std::same_as<VoigtTangent<Dim>>;
@@ -42,10 +44,10 @@ concept ChoosesTangentRule = requires(Rule const& rule) {
   requires TangentRule<std::remove_cvref_t<decltype(rule.learned)>, Dim>;
 };
 
-/// Tangents that learn at every material point: each iteration's change of strain and stress corrects the point's tangent by
-/// Broyden's rank-one update, so that thousands of points gather curvature at once where a global quasi-Newton method gathers
-/// one direction. A step starts from a mix of the provider's tangent and what the last step has learned.
-/// The symmetric part is bounded below by a floor, without which softening makes the system indefinite.
+/// Tangents that learn at every material point: each iteration's change of strain and stress corrects the point's
+/// tangent by Broyden's rank-one update, so that thousands of points gather curvature at once where a global
+/// quasi-Newton method gathers one direction. A step starts from a mix of the provider's tangent and what the last step
+/// has learned. The symmetric part is bounded below by a floor, without which softening makes the system indefinite.
 struct PointwiseBroyden {
   double provider_share = 0.5;      ///< of the provider's tangent in the start of a step; the rest is learned
   double floor = 0.02;              ///< least eigenvalue, relative to the mean diagonal of the provider's tangent
@@ -64,7 +66,8 @@ struct PointwiseBroyden {
     return provider_share * provider + (1.0 - provider_share) * learned;
   }
 
-  /// Broyden's update by an iteration's change of strain (engineering shear) and stress [Pa]; then the floor is applied.
+  /// Broyden's update by an iteration's change of strain (engineering shear) and stress [Pa]; then the floor is
+  /// applied.
   /// \f$ C \leftarrow C + (\Delta\sigma - C \Delta\epsilon)\, \Delta\epsilon^T / |\Delta\epsilon|^2 \f$
   /// (Broyden 1965, Math. Comp. 19, 577)
   template <int Dim>
@@ -91,8 +94,8 @@ struct PointwiseBroyden {
 
 static_assert(TangentRule<PointwiseBroyden, 2> && TangentRule<PointwiseBroyden, 3>);
 
-/// Newton's method: every iteration uses the provider's tangent at its trial state. Residuals fall quadratically where that is
-/// the derivative of the response and the response is smooth.
+/// Newton's method: every iteration uses the provider's tangent at its trial state. Residuals fall quadratically where
+/// that is the derivative of the response and the response is smooth.
 struct ConsistentTangent {
   double floor = 0.0;  ///< share of the first tangent that is mixed in, against singular systems at a limit load
 
@@ -114,7 +117,8 @@ struct ConsistentTangent {
 
 static_assert(TangentRule<ConsistentTangent, 2> && TangentRule<ConsistentTangent, 3>);
 
-/// The rule that suits the materials: `exact` where all of them have exact tangents (see has_exact_tangent), else `learned`.
+/// The rule that suits the materials: `exact` where all of them have exact tangents (see has_exact_tangent), else
+/// `learned`.
 struct MaterialTangent {
   ConsistentTangent exact{};   ///< of materials like elasticity and Mohr-Coulomb's
   PointwiseBroyden learned{};  ///< where a material is a packing, or states nothing of its tangent
@@ -133,8 +137,9 @@ struct SecantPair {
   VoigtStress<Dim> stress;        ///< [Pa]
 };
 
-/// From the response to one gradient to that to another, both from the same start, in the axes of the first: the rotation
-/// between them turns the stress that was there and is no stiffness. Nothing, where no rotation leads from one to the other.
+/// From the response to one gradient to that to another, both from the same start, in the axes of the first: the
+/// rotation between them turns the stress that was there and is no stiffness. Nothing, where no rotation leads from one
+/// to the other.
 template <int Dim>
 SecantPair<Dim> corotated_secant_pair(Gradient<Dim> const& from, Gradient<Dim> const& to,
                                       VoigtStress<Dim> const& before, VoigtStress<Dim> const& after) {

@@ -39,16 +39,16 @@ class SCARP_EXPORT ThreadExecutor : public Executor {
 
   int threads() const override;  ///< The calling thread included.
 
-  /// An exception of a task is rethrown here after all threads have come to rest. A task that calls a team which is at work,
-  /// its own or another one, does its tasks one after the other on its own thread; otherwise calls of several threads wait for
-  /// one another.
+  /// An exception of a task is rethrown here after all threads have come to rest. A task that calls a team which is at
+  /// work, its own or another one, does its tasks one after the other on its own thread; otherwise calls of several
+  /// threads wait for one another.
   void for_each(int count, std::function<void(int)> const& task) const override;
 
  private:
   class Team;
 
-  /// The team of this process. One of the process that this was forked from is forgotten: its threads cannot be joined, and its
-  /// mutex may be locked for ever.
+  /// The team of this process. One of the process that this was forked from is forgotten: its threads cannot be joined,
+  /// and its mutex may be locked for ever.
   Team& team() const;
 
   mutable std::atomic<Team*> team_;

@@ -13,9 +13,9 @@
 
 namespace scarp {
 
-/// Observer that adds up the work of a run by the trapezoidal rule over its accepted steps: external, of loads and of reactions at
-/// prescribed displacements, and internal, of the points' stresses on their strains, which they store or dissipate. They differ
-/// by what the residual lets through and by the rule, at second order in the step.
+/// Observer that adds up the work of a run by the trapezoidal rule over its accepted steps: external, of loads and of
+/// reactions at prescribed displacements, and internal, of the points' stresses on their strains, which they store or
+/// dissipate. They differ by what the residual lets through and by the rule, at second order in the step.
 /// \tparam Problem a `Problem` without attachment
 template <class Problem>
 class WorkBalance {

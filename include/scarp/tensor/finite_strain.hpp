@@ -36,15 +36,16 @@ Tensor<Dim, Scalar> rotation_factor(Tensor<Dim, Scalar> const& deformation) {
 }
 
 /// An increment of displacement as a stretch and a rotation after it, I + gradient = R U.
-/// \f$ E = 2 (U - I)(U + I)^{-1} \f$ is the strain of the stretch with respect to its half-way configuration; it differs from
-/// ln U by E^3/12, so a large increment and the same one in many parts agree to second order.
+/// \f$ E = 2 (U - I)(U + I)^{-1} \f$ is the strain of the stretch with respect to its half-way configuration; it
+/// differs from ln U by E^3/12, so a large increment and the same one in many parts agree to second order.
 template <int Dim>
 struct SCARP_EXPORT RotatedIncrement {
   Tensor<Dim> turn = Tensor<Dim>::Identity();  ///< R
   Tensor<Dim> strain = Tensor<Dim>::Zero();    ///< E, before the rotation
   Verdict verdict;  ///< not_finite, or element_inverted where det(I + gradient) is not positive
 
-  /// Splits I + gradient, shape (Dim, Dim); `verdict` reports a gradient that is not finite or turns the element inside out.
+  /// Splits I + gradient, shape (Dim, Dim); `verdict` reports a gradient that is not finite or turns the element inside
+  /// out.
   explicit RotatedIncrement(Gradient<Dim> const& gradient);
 };
 
@@ -68,7 +69,8 @@ extern template struct RotatedIncrement<2>;
 extern template struct RotatedIncrement<3>;
 #endif
 
-/// Logarithm of I + gradient: the velocity gradient that, held constant for unit time, moves the identity to I + gradient.
+/// Logarithm of I + gradient: the velocity gradient that, held constant for unit time, moves the identity to I +
+/// gradient.
 /// \f$ \ln(I + G) = 2\,artanh(G (2I + G)^{-1}) \f$ summed to round-off; meant for increments well below 1.
 /// An increment too large for the series gives NaN, which the caller's status check finds.
 template <int Dim>

@@ -21,8 +21,9 @@ inline PlaneStress plane_stress(VoigtStress<2> const& stress) {
   return {-(stress(0) + stress(1)) / 2.0, std::hypot(half_difference, stress(2))};
 }
 
-/// Measures of the logarithmic strain, \f$ \varepsilon_v = -\ln\det F,\; \varepsilon_q = \varepsilon_1 - \varepsilon_3 \f$: the difference
-/// of the outer principal strains, in the plane \f$ \sqrt{2 e_{ij} e_{ij}} \f$.
+/// Measures of the logarithmic strain,
+/// \f$ \varepsilon_v = -\ln\det F,\; \varepsilon_q = \varepsilon_1 - \varepsilon_3 \f$: the difference of the outer
+/// principal strains, in the plane \f$ \sqrt{2 e_{ij} e_{ij}} \f$.
 struct Strain {
   double volumetric;  ///< contraction positive
   double deviatoric;  ///< at least zero

@@ -42,13 +42,14 @@ Vector<Dim> principal_values(Tensor<Dim> const& symmetric) {
 /// of_values: derivative of the function's principal values with respect to the argument's, shape (3, 3)
 /// argument, value: principal values of both, in the same order; directions: common, as columns
 /// \f$ D = \sum_{ab} D_{ab}\, M_a \otimes M_b + \sum_{a<b} 4 g_{ab}\, S_{ab} \otimes S_{ab},\; 2 g_{ab} = (s_a - s_b)/(e_a - e_b) \f$
-/// with M_a = n_a n_a, S_ab the symmetric part of n_a n_b (Ogden 1984; de Souza Neto et al., app. A). Equal arguments give the limit.
+/// with M_a = n_a n_a, S_ab the symmetric part of n_a n_b (Ogden 1984; de Souza Neto et al., app. A). Equal arguments
+/// give the limit.
 /// \return with respect to engineering strain, shape (6, 6)
 SCARP_EXPORT VoigtTangent<3> isotropic_derivative(Tensor<3> const& of_values, Vector<3> const& argument,
                                                   Vector<3> const& value, Tensor<3> const& directions);
 
-/// Largest magnitude of a symmetric tensor's principal values: the same in whatever axes it is given. NaN in gives NaN out.
-/// In the plane by Mohr's circle, in space by the cosine formula of the characteristic cubic (Smith 1961).
+/// Largest magnitude of a symmetric tensor's principal values: the same in whatever axes it is given. NaN in gives NaN
+/// out. In the plane by Mohr's circle, in space by the cosine formula of the characteristic cubic (Smith 1961).
 template <int Dim>
 double largest_principal(Tensor<Dim> const& symmetric) {
   static_assert(Dim == 2 || Dim == 3);

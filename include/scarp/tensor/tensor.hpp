@@ -11,8 +11,8 @@ namespace scarp {
 
 namespace detail {
 
-/// Eigen's alignment of objects decides where members stand: it is to be the same in all sources of a program, which each of
-/// them is checked at the program's start, as for the version (`core/one_version.hpp`).
+/// Eigen's alignment of objects decides where members stand: it is to be the same in all sources of a program, which
+/// each of them is checked at the program's start, as for the version (`core/one_version.hpp`).
 consteval int own_alignment() { return 1000 * EIGEN_MAX_ALIGN_BYTES + EIGEN_MAX_STATIC_ALIGN_BYTES; }
 
 [[gnu::noinline]] inline int alignment_of_functions() {

@@ -60,7 +60,8 @@ Tensor<Dim, Scalar> from_voigt_stress(VoigtStress<Dim, Scalar> const& voigt) {
   return stress;
 }
 
-/// A tensor in space with the components of one in the plane, and one on the diagonal out of the plane; in space itself.
+/// A tensor in space with the components of one in the plane, and one on the diagonal out of the plane; in space
+/// itself.
 template <int Dim>
 Tensor<3> in_space(Tensor<Dim> const& tensor, double out_of_plane) {
   Tensor<3> whole = Tensor<3>::Zero();

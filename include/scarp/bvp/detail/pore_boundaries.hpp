@@ -15,7 +15,8 @@
 
 namespace scarp::detail {
 
-/// Where the pressure of a field of corners is given and where water flows in; everywhere else the boundary is impermeable.
+/// Where the pressure of a field of corners is given and where water flows in; everywhere else the boundary is
+/// impermeable.
 class PoreBoundaries {
  public:
   using Values = Eigen::VectorXd;

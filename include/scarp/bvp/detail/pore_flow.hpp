@@ -77,7 +77,7 @@ class PoreFlow {
     FlowStep step{assembled(field, flow), assembled(field, change), viewed(volumes)};
     Eigen::VectorXd storage = step.volumes;
     for (int point = 0; point < grid.point_count(); ++point)
-      storage(point) *= flow_in(field, Field::element_of(point)).storage(void_ratio_[index(point)]);
+      storage(point) *= flow_in(field, Field::element_of(point)).storage(pores(point));
     step.change += typename Field::Matrix(field.shapes().transpose() * storage.asDiagonal() * field.shapes());
     return step;
   }
@@ -88,11 +88,14 @@ class PoreFlow {
   static constexpr std::string_view name_of_ratio = "void ratio of the ground with pore water";
 
   Flow const& flow_in(Field const& field, int element) const { return flows_[index(field.region_of(element))]; }
+  /// Void ratio that counts: where a material shrinks to its grains and beyond, as at the tip of a fault, pores stay
+  /// open a little.
+  double pores(int point) const { return std::max(void_ratio_[index(point)], 0.01); }
   double mean_void_ratio(Field const& field, int element) const {
     int const first = field.grid().first_point(element);
     int const end = field.grid().first_point(element + 1);
     double sum = 0.0;
-    for (int point = first; point < end; ++point) sum += void_ratio_[index(point)];
+    for (int point = first; point < end; ++point) sum += pores(point);
     return sum / (end - first);
   }
   static typename Field::Matrix assembled(Field const& field, typename Field::Triplets const& entries) {

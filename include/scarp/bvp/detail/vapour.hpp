@@ -33,8 +33,8 @@ Above above(Field const& field, double level) {
   return found;
 }
 
-/// Vapour at the corners of a field of excess pressures u: where u falls below the lowest that water has, it takes a volume that is
-/// proportional to what u lacks.
+/// Vapour at the corners of a field of excess pressures u: where u falls below the lowest that water has, it takes a
+/// volume that is proportional to what u lacks.
 class Vapour {
  public:
   using Values = Eigen::VectorXd;

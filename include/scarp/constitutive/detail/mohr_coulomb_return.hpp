@@ -26,7 +26,8 @@ struct PrincipalReturn {
   bool found = false;
 };
 
-/// Return of principal stresses `trial` [Pa], largest (most tensile) first, to the Mohr-Coulomb pyramid; lame_lambda, shear_modulus [Pa]
+/// Return of principal stresses `trial` [Pa], largest (most tensile) first, to the Mohr-Coulomb pyramid; lame_lambda,
+/// shear_modulus [Pa]
 SCARP_EXPORT PrincipalReturn mohr_coulomb_return(Strength const& strength, double lame_lambda, double shear_modulus,
                                                  Vector<3> const& trial);
 
@@ -34,19 +35,22 @@ SCARP_EXPORT PrincipalReturn mohr_coulomb_return(Strength const& strength, doubl
 SCARP_EXPORT double mohr_coulomb_excess(Strength const& strength, Vector<3> const& stress);
 
 #ifdef SCARP_DEFINITIONS
-/// A plane that bounds the admissible principal stresses, \f$ n\cdot\sigma \le s \f$, and the direction of plastic flow on it.
+/// A plane that bounds the admissible principal stresses, \f$ n\cdot\sigma \le s \f$, and the direction of plastic flow
+/// on it.
 struct YieldPlane {
   Vector<3> normal;
   Vector<3> flow;
   double limit;
 };
 
-/// Return of principal stresses, largest first, to the Mohr-Coulomb pyramid with tension cut-off: an implicit Euler step,
-/// which for planes and linear elasticity is a linear complementarity problem in the plastic multipliers,
+/// Return of principal stresses, largest first, to the Mohr-Coulomb pyramid with tension cut-off: an implicit Euler
+/// step, which for planes and linear elasticity is a linear complementarity problem in the plastic multipliers,
 /// \f$ f_k = n_k\cdot(\sigma^{tr} - C\,\sum_l \lambda_l r_l) - s_k \le 0,\; \lambda_k \ge 0,\; \lambda_k f_k = 0 \f$
-/// solved by trying faces, edges and corners in this order. Faces: \f$ (1+\sin\varphi)\sigma_i - (1-\sin\varphi)\sigma_j \le 2c\cos\varphi \f$
-/// for i < j, which suffice for ordered stresses, with flow by psi, and \f$ \sigma_i \le t \f$ with associated flow, through
-/// which the apex is reached whatever psi is. (de Souza Neto, Peric and Owen, Computational Methods for Plasticity, ch. 8.)
+/// solved by trying faces, edges and corners in this order. Faces:
+/// \f$ (1+\sin\varphi)\sigma_i - (1-\sin\varphi)\sigma_j \le 2c\cos\varphi \f$
+/// for i < j, which suffice for ordered stresses, with flow by psi, and \f$ \sigma_i \le t \f$ with associated flow,
+/// through which the apex is reached whatever psi is. (de Souza Neto, Peric and Owen, Computational Methods for
+/// Plasticity, ch. 8.)
 class MohrCoulombReturn {
  public:
   MohrCoulombReturn(Strength const& strength, double lame_lambda, double shear_modulus)
@@ -64,7 +68,8 @@ class MohrCoulombReturn {
   }
 
   PrincipalReturn operator()(Vector<3> const& trial) const {
-    // A cut-off beyond the trial stress does not count: c cot(phi) of hardly any friction would make the slack as large as c.
+    // A cut-off beyond the trial stress does not count: c cot(phi) of hardly any friction would make the slack as large
+    // as c.
     double const size = std::max(trial.cwiseAbs().maxCoeff(), plane(0).limit);
     double const slack = 1e-12 * size;
     if (excess(trial) <= 0.0) return {trial, Vector<3>::Zero(), elastic_stiffness(), 0, true};
@@ -102,7 +107,8 @@ class MohrCoulombReturn {
     return stiffness;
   }
 
-  /// The first return with so many active planes, of which the first `chosen` are given and the others numbered from `next`.
+  /// The first return with so many active planes, of which the first `chosen` are given and the others numbered from
+  /// `next`.
   template <int Count>
   PrincipalReturn with_planes(Vector<3> const& trial, double slack, std::array<int, detail::index(Count)> active = {},
                               int chosen = 0, int next = 0) const {
@@ -128,8 +134,9 @@ class MohrCoulombReturn {
   int count_ = 0;
 };
 
-/// Multipliers \f$ \mu = 2G\lambda \f$ and the mean stress \f$ p = \kappa\,1\cdot R\mu,\; \kappa = \lambda_L/2G \f$, that plastic flow
-/// R subtracts, are unknowns of one system: however large kappa is near incompressibility, nothing large is subtracted,
+/// Multipliers \f$ \mu = 2G\lambda \f$ and the mean stress \f$ p = \kappa\,1\cdot R\mu,\; \kappa = \lambda_L/2G \f$,
+/// that plastic flow R subtracts, are unknowns of one system: however large kappa is near incompressibility, nothing
+/// large is subtracted,
 /// \f$ N^T R\mu + N^T 1\,p = f^{tr},\; \kappa\,1^T R\mu - p = 0 \f$, the second row divided by 1 + |kappa|.
 template <int Count>
 PrincipalReturn MohrCoulombReturn::attempt(std::array<int, detail::index(Count)> const& active, Vector<3> const& trial,

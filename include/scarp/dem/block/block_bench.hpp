@@ -24,7 +24,8 @@ struct Columns {
   SCARP_HOST_DEVICE constexpr T& operator[](int row) const { return memory.template at<T>(offset)[row]; }
 };
 
-/// Memory that the threads of a block share while they work. What a list is made with lies where the pairs' forces lie afterwards.
+/// Memory that the threads of a block share while they work. What a list is made with lies where the pairs' forces lie
+/// afterwards.
 /// \tparam Types a `BlockTypes`
 /// \tparam Memory at<T>(offset [bytes]): where the arrays are
 template <class Types, class Memory>

@@ -42,7 +42,8 @@ struct BlockParameters {
   double time_step_share;   ///< of the critical time step
 };
 
-/// Where states of packings are and respond by the block program: a card, or the processor in its place. Several threads may call it.
+/// Where states of packings are and respond by the block program: a card, or the processor in its place. Several
+/// threads may call it.
 /// \tparam TypesOf a `BlockTypes`
 /// \tparam DampingOf a `DampsMotion` that needs no more than the time step
 template <class TypesOf, class DampingOf>
@@ -59,8 +60,8 @@ class BlockDevice {
   virtual ~BlockDevice() = default;
   /// Whether it responds to many tasks in the time of one, so that all points are to come in one call.
   virtual bool takes_many() const = 0;
-  /// Rows of a state for so many grains and near pairs, with room for a longer list; it follows from these two numbers alone. Nothing for
-  /// more than there is room for.
+  /// Rows of a state for so many grains and near pairs, with room for a longer list; it follows from these two numbers
+  /// alone. Nothing for more than there is room for.
   virtual std::optional<BlockSize> room(int grains, int pairs) const = 0;
   virtual std::size_t free_bytes() const = 0;                              ///< That states may still have.
   virtual Bytes allocate(std::size_t bytes) = 0;                           ///< \throws std::bad_alloc

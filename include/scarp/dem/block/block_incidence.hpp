@@ -5,8 +5,8 @@
 
 namespace scarp::detail {
 
-/// Lists for each grain its pairs, in their order, so that its forces are added up in one order whatever the number of threads. To be followed
-/// by a barrier, such as that after the forces.
+/// Lists for each grain its pairs, in their order, so that its forces are added up in one order whatever the number of
+/// threads. To be followed by a barrier, such as that after the forces.
 template <class Types, class Team>
 [[gnu::noinline]] SCARP_HOST_DEVICE constexpr void write_incidence(BlockWork<Types, Team>& work) {
   auto const& b = work.bench;

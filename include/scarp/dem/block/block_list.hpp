@@ -242,8 +242,8 @@ class BlockList {
     if (next_count_ > b_.pairs) w_.trouble = Trouble::list_full;
   }
 
-  /// Writes the list, sorted by names: it follows from the pairs alone, and with it every sum of forces. `write_incidence` follows with its
-  /// barriers.
+  /// Writes the list, sorted by names: it follows from the pairs alone, and with it every sum of forces.
+  /// `write_incidence` follows with its barriers.
   SCARP_HOST_DEVICE constexpr void write_pairs() {
     each(w_.team, w_.grain_count, [&](int i) {
       int at = 0;

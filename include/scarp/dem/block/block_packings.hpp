@@ -60,8 +60,8 @@ int image_code(Shift const& shift) {
 
 }  // namespace detail
 
-/// Writes a packing into a state. Pairs are sorted by their grains, so that a block's threads read side by side, and a state that
-/// was a packing in between has the same list.
+/// Writes a packing into a state. Pairs are sorted by their grains, so that a block's threads read side by side, and a
+/// state that was a packing in between has the same list.
 template <class PackingType>
 void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> const& state) {
   using Types = BlockTypesOf<PackingType>;
@@ -117,7 +117,8 @@ void to_block(PackingType const& packing, BlockState<BlockTypesOf<PackingType>> 
   }
 }
 
-/// Reads a state into a packing, whose grains and basis of the list stay. Pairs are ordered as the loop over packs wants them.
+/// Reads a state into a packing, whose grains and basis of the list stay. Pairs are ordered as the loop over packs
+/// wants them.
 template <class PackingType>
 void from_block(BlockState<BlockTypesOf<PackingType>> const& state, PackingType& packing) {
   using Types = BlockTypesOf<PackingType>;

@@ -30,8 +30,8 @@ SCARP_HOST_DEVICE constexpr void each_memory(ContactMemory<Types::dim, Scalar>& 
   for (int s = 0; s < Types::Law::inputs.scalars; ++s) visit(k++, memory.scalars[static_cast<std::size_t>(s)]);
 }
 
-/// Iterates the normal of a pair for which one step is not enough. Rare; its arguments are values, since the loop over pairs would
-/// otherwise keep its numbers in memory.
+/// Iterates the normal of a pair for which one step is not enough. Rare; its arguments are values, since the loop over
+/// pairs would otherwise keep its numbers in memory.
 template <class Shape, class Scalar>
 [[gnu::noinline, gnu::cold]] SCARP_HOST_DEVICE constexpr SettledTouch<Shape::dim> settle(
     PoseOf<Shape, Scalar> first, PoseOf<Shape, Scalar> second, Point<Shape::dim, Scalar> branch,

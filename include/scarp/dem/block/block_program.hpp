@@ -11,8 +11,8 @@
 
 namespace scarp {
 
-/// One response of a packing by a team of threads, from and to a `BlockState`: the law, shape, damping and steps of `TimeStepper`, in
-/// an order of additions that does not depend on the number of threads.
+/// One response of a packing by a team of threads, from and to a `BlockState`: the law, shape, damping and steps of
+/// `TimeStepper`, in an order of additions that does not depend on the number of threads.
 /// \tparam Types a `BlockTypes`
 /// \tparam Damping next_velocity(velocity, force, mobility), as `DampsMotion`
 /// \tparam Team a `WorksTogether`
@@ -32,8 +32,8 @@ class BlockProgram {
                                            Law const& law, Damping const& damping, double time_step_share)
       : w_{team, {team.memory(), size}, grains, law}, damping_(damping), time_step_share_(time_step_share) {}
 
-  /// From `committed` in so many steps of this displacement gradient to `trial`. A response that has a trouble ends at once. No
-  /// steps: the same state with its stiffness, and nothing is observed.
+  /// From `committed` in so many steps of this displacement gradient to `trial`. A response in trouble ends at once.
+  /// No steps: the same state with its stiffness, and nothing is observed.
   SCARP_HOST_DEVICE constexpr void respond(BlockState<Types> const& committed, BlockState<Types> const& trial,
                                            int steps, detail::SmallTensor<dim> const& strain_step) {
     begin(committed, trial);

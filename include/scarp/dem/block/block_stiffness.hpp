@@ -46,7 +46,8 @@ SCARP_HOST_DEVICE constexpr bool acts(Work const& work, int p, double overlap, d
   return overlap > 0.0;
 }
 
-/// Stiffness times volume [N m] of all contacts under uniform strain, see `contact_tangent`. Nothing of the work changes.
+/// Stiffness times volume [N m] of all contacts under uniform strain, see `contact_tangent`. Nothing of the work
+/// changes.
 template <class Work>
 [[gnu::noinline,
   gnu::cold]] SCARP_HOST_DEVICE constexpr std::array<double, static_cast<std::size_t>(stiffness_count<Work::dim>)>

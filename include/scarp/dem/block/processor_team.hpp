@@ -11,8 +11,8 @@
 
 namespace scarp {
 
-/// Threads of the processor as a team: they run the program of a GPU's block, for machines without a card, for tests and for
-/// race detectors.
+/// Threads of the processor as a team: they run the program of a GPU's block, for machines without a card, for tests
+/// and for race detectors.
 class ProcessorTeam {
  public:
   using Memory = HostMemory;  ///< the processor's

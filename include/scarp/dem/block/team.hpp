@@ -22,12 +22,14 @@ struct HostMemory {
   }
 };
 
-/// Threads that work on one packing together, as a block of a GPU does. All threads call all functions but `take` in the same order.
+/// Threads that work on one packing together, as a block of a GPU does. All threads call all functions but `take` in
+/// the same order.
 /// - rank(), size(): number of the calling thread, number of threads
 /// - barrier(): returns when all threads have called it; each then sees what the others wrote
 /// - largest(bits): the largest of all threads' numbers, one by one
 /// - take(counter): adds one to a shared counter and returns its former value
-/// - sum<Count>(of_lane): Count sums over `lane_total` lanes, of_lane(lane) being one lane's terms, in an order that does not depend
+/// - sum<Count>(of_lane): Count sums over `lane_total` lanes, of_lane(lane) being one lane's terms, in an order that
+///   does not depend
 ///   on the number of threads
 /// - memory(): at<T>(offset [bytes]) of the memory that all threads share
 template <class Team>

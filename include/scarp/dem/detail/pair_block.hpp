@@ -40,8 +40,8 @@ Turning<Dim, Lanes> affine_turn(Tensor<Dim> const& gradient) {
   }
 }
 
-/// Both sides of a pair: their rows of data as lanes. Of the first quads of a row only differences are requested: they are
-/// taken before the transposition in registers, which then serves both sides.
+/// Both sides of a pair: their rows of data as lanes. Of the first quads of a row only differences are requested: they
+/// are taken before the transposition in registers, which then serves both sides.
 template <class Layout, class Lanes>
 class PairSides {
  public:
@@ -114,7 +114,8 @@ void scatter_space(Point<3, Lanes> const& force, std::array<Lanes, 3> const& tor
   }
 }
 
-/// A block of near pairs on its way through the loop: one array for each number of a pair, small enough for the nearest cache.
+/// A block of near pairs on its way through the loop: one array for each number of a pair, small enough for the nearest
+/// cache.
 template <class Shape, class Law, class Scalar>
 struct PairBlock {
   using Layout = RowLayout<Shape, Law>;

@@ -175,7 +175,8 @@ struct GmshOptions {
 /// A file of Gmsh, read once: MSH 2 to 2.2, 4.0 or 4.1, text or binary, of any order of bytes.
 class GmshFile {
  public:
-  /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged, and for an order but 1 and 2
+  /// \throws InputError naming file and line or byte for what is no mesh of Gmsh or is damaged, and for an order but 1
+  /// and 2
   explicit GmshFile(std::filesystem::path const& path, GmshOptions const& options = {})
       : GmshFile(read_file(path), path.string(), options) {}
   /// bytes: of the file; name: in messages
@@ -185,21 +186,21 @@ class GmshFile {
     detail::normalise_gmsh(content_, options.highest_order, options.regions);
   }
 
-  /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of several types
-  /// in the highest dimension the lowest number, 0 without surfaces and volumes.
+  /// Gmsh's number of the type of the elements, to choose the one that mesh() reads them as (`Tri6::gmsh_type`); of
+  /// several types in the highest dimension the lowest number, 0 without surfaces and volumes.
   int element_type() const {
     int const highest = detail::gmsh_dimension(content_);
     return highest < 2 ? 0 : detail::gmsh_kinds(content_, highest).begin()->first;
   }
 
-  /// What mesh() has in another way than the file, or not: turned elements, dropped nodes, empty physical groups, groups that hold
-  /// others, sections that are not read. A sentence each.
+  /// What mesh() has in another way than the file, or not: turned elements, dropped nodes, empty physical groups,
+  /// groups that hold others, sections that are not read. A sentence each.
   std::vector<std::string> notes() const { return content_.notes; }
 
   /// Physical groups of the elements' dimension become regions, those of one dimension less boundaries, with each side
   /// once; without a name they are called "physical_<tag>". Elements in no group form the region "mesh", those in
-  /// several the smallest of them. Nodes and elements are numbered in the order of their tags; nodes of no element, points
-  /// and elements of lower dimension in no group are left out. Lengths in [m].
+  /// several the smallest of them. Nodes and elements are numbered in the order of their tags; nodes of no element,
+  /// points and elements of lower dimension in no group are left out. Lengths in [m].
   /// \throws InputError naming file and node or element for what is no mesh of such elements, is flat or turned inside
   /// out, or in 2D not flat in z
   template <HasGmshType Element>

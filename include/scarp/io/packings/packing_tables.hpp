@@ -10,7 +10,8 @@
 namespace scarp {
 
 /// Writes a plane packing for drawing: STEM_grains.csv (x, y, half axes a, b, cos and sin of the major axis; [m]),
-/// STEM_contacts.csv (branch from x1, y1 to x2, y2 [m], normal force [N], unit normal nx, ny), STEM_cell.csv (base vectors [m]).
+/// STEM_contacts.csv (branch from x1, y1 to x2, y2 [m], normal force [N], unit normal nx, ny), STEM_cell.csv (base
+/// vectors [m]).
 /// \throws FileError when a file cannot be written
 inline void write_packing_tables(std::filesystem::path const& folder, PackingPicture const& picture,
                                  std::string const& stem = "packing") {

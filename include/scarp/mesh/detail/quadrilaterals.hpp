@@ -8,8 +8,8 @@
 namespace scarp::detail {
 
 /// Quadrilaterals from bisected ones. Two triangles of one region with a common base become one where its angles lie
-/// between 20 and 160 degrees; then each of these and of the triangles left is divided from its centre to the middles of
-/// its sides. All sides are halved, so that no node hangs.
+/// between 20 and 160 degrees; then each of these and of the triangles left is divided from its centre to the middles
+/// of its sides. All sides are halved, so that no node hangs.
 class Quadrilaterals {
  public:
   using Side = std::array<int, 2>;

@@ -22,8 +22,8 @@
 
 namespace scarp::detail {
 
-/// Material points of one provider whose type nobody sees: parameters, committed and trial states, plans. Points have numbers of their
-/// own here, beside those among all points.
+/// Material points of one provider whose type nobody sees: parameters, committed and trial states, plans. Points have
+/// numbers of their own here, beside those among all points.
 template <int Dim>
 class PointBatch {
  public:
@@ -44,8 +44,8 @@ class PointBatch {
   virtual bool has_exact_tangent() const = 0;
   /// Whether the points are to respond in one call, since many take the time of one.
   virtual bool takes_many() const = 0;
-  /// Points that need more than `plan_slack` times the planned work plan it anew. increments and responses: of all points by
-  /// their numbers among these
+  /// Points that need more than `plan_slack` times the planned work plan it anew. increments and responses: of all
+  /// points by their numbers among these
   virtual void respond(std::span<int const> own, std::vector<Gradient<Dim>> const& increments,
                        std::vector<Response<Dim>>& responses) = 0;
   virtual VoigtStress<Dim> stress(int k) const = 0;
@@ -58,13 +58,16 @@ class PointBatch {
   /// A state of the point, for `put`.
   virtual std::any read(int k, StateReader& reader) const = 0;
   virtual void put(int k, std::any state) = 0;
-  /// A state of a point of another batch, for `put`; mirrored where there is a mirror. \throws InputError unless it has the same type of provider
+  /// A state of a point of another batch, for `put`; mirrored where there is a mirror. \throws InputError unless it has
+  /// the same type of provider
   virtual std::any state_from(PointBatch const& other, int k, std::optional<Mirror<Dim>> const& mirror) const = 0;
 
-  /// What a committed state shows as a value of this type: a pointer to itself, quantities, balance or picture; else nothing.
+  /// What a committed state shows as a value of this type: a pointer to itself, quantities, balance or picture; else
+  /// nothing.
   virtual std::any shown(int k, std::type_info const& type) const = 0;
   virtual VoigtStress<Dim> floor_stress(int k) const = 0;
-  /// Right after a commit, with twice the work: from the state before it or, where there is a path, from the state in its bits.
+  /// Right after a commit, with twice the work: from the state before it or, where there is a path, from the state in
+  /// its bits.
   virtual DoubledResponse<Dim> doubled(int k, Gradient<Dim> const& increment, std::string* path) const = 0;
 };
 
@@ -225,7 +228,8 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     });
   }
 
-  /// Lets the provider within the adaptors respond for all points, where it has a function for that; each point then finds its own.
+  /// Lets the provider within the adaptors respond for all points, where it has a function for that; each point then
+  /// finds its own.
   void respond_together(std::span<int const> own, std::vector<Gradient<dim>> const& increments) {
     unwrap(*provider_, trial_[index(own.front())], [&]<class Inner>(Inner const&, auto const&) {
       if constexpr (requires { typename Inner::Request; }) {

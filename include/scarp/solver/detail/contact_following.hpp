@@ -22,8 +22,8 @@ struct LinearisedGround {
   }
 };
 
-/// Balances a linearised ground with what is attached to it: contact that opens, closes or slides is followed where no material
-/// point is evaluated.
+/// Balances a linearised ground with what is attached to it: contact that opens, closes or slides is followed where no
+/// material point is evaluated.
 template <int Dim>
 class ContactFollowing {
  public:

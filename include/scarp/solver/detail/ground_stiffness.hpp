@@ -16,8 +16,8 @@
 
 namespace scarp::detail {
 
-/// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times volume
-/// [N m] from means, which outlive the map.
+/// Forces [N] of the mesh's degrees of freedom by the means of strains: strains from displacements, and stresses times
+/// volume [N m] from means, which outlive the map.
 template <int Dim>
 LinearMap forces_around(Eigen::SparseMatrix<double> strains, std::vector<VoigtTangent<Dim>> tangents,
                         PointMeans<Dim> const& means, Executor const& executor) {

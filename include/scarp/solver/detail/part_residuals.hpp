@@ -46,7 +46,8 @@ struct WholeResidual {
     double const free = squared_over(free_dofs, unbalanced);
     return free == 0.0 ? 0.0 : std::sqrt(free / std::max(scale(unbalanced, loads), least * largest_scale));
   }
-  /// What residuals are relative to, squared [N2]. Reactions alone may be round-off: those of a body that is pressed from all sides.
+  /// What residuals are relative to, squared [N2]. Reactions alone may be round-off: those of a body that is pressed
+  /// from all sides.
   double scale(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
     return std::max({squared_over(prescribed_dofs, unbalanced), loads.squaredNorm(), carried});
   }

@@ -11,10 +11,11 @@
 
 namespace scarp::detail {
 
-/// Where unbalanced forces cease to do work along a straight way: of bodies with a potential the place of the least one. The
-/// forces of stiffness and friction oppose motion ever more the farther it goes, so that there is one such place, also where
-/// the size of the imbalance is flat and shows no way.
-/// work(share): unbalanced (internal less external) forces times the way, at a share of it; negative at share 0, continuous
+/// Where unbalanced forces cease to do work along a straight way: of bodies with a potential the place of the least
+/// one. The forces of stiffness and friction oppose motion ever more the farther it goes, so that there is one such
+/// place, also where the size of the imbalance is flat and shows no way.
+/// work(share): unbalanced (internal less external) forces times the way, at a share of it; negative at share 0,
+/// continuous
 /// \param most largest share that is tried
 /// \return share at which less than a thousandth of the work at 0 is left, nothing if there is none up to `most`
 template <class Work>
@@ -53,8 +54,8 @@ std::optional<double> zero_power_step(Work const& work, double most) {
 ///
 /// Newton's method with halving as long as it makes the imbalance smaller. A body all of whose points slide has no
 /// stiffness along its base, and there its imbalance is flat: then the stiffness of held contacts, which is positive,
-/// gives a direction along which the unbalanced forces do work, and the body goes as far as they do (the least potential
-/// along a line; friction and unilateral springs have one as long as the pressures stay).
+/// gives a direction along which the unbalanced forces do work, and the body goes as far as they do (the least
+/// potential along a line; friction and unilateral springs have one as long as the pressures stay).
 template <int Dim>
 class StandingBalance {
   using Problem = scarp::Problem<Dim>;
@@ -67,8 +68,8 @@ class StandingBalance {
   /// Whether the contacts of the last evaluation support the body in every direction.
   bool is_held() const { return own_.empty() || factors(problem_.attached_stiffness()).isInvertible(); }
 
-  /// Begins the count of evaluations of the attachment, which are limited: a body that slides without friction, or on springs so
-  /// stiff that round-off hides its imbalance, could be evaluated without end.
+  /// Begins the count of evaluations of the attachment, which are limited: a body that slides without friction, or on
+  /// springs so stiff that round-off hides its imbalance, could be evaluated without end.
   void begin() { evaluations_ = 0; }
   bool spent() const { return evaluations_ >= max_evaluations; }
 

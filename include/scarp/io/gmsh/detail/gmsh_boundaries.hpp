@@ -74,7 +74,8 @@ class GmshNumbering {
   std::vector<GmshNode> nodes_;
 };
 
-/// Turns the nodes of a side so that the outward normal of an element is theirs; between two elements the given sense stays.
+/// Turns the nodes of a side so that the outward normal of an element is theirs; between two elements the given sense
+/// stays.
 /// \return false when no element has such a side
 template <class Element>
 bool orient(std::array<int, Element::facet_nodes>& side, std::vector<MeshSide<Element>> const& sides) {
@@ -99,7 +100,8 @@ void reject_other_sides(GmshContent const& content) {
   }
 }
 
-/// A side belongs to a boundary once, however often the file lists it: in several groups of one name, or as several lines.
+/// A side belongs to a boundary once, however often the file lists it: in several groups of one name, or as several
+/// lines.
 template <class Element>
 void read_gmsh_boundaries(GmshContent const& content, GmshNumbering const& numbering, Mesh<Element>& mesh) {
   constexpr int dim = Element::dim - 1;

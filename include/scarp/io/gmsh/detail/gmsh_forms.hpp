@@ -44,7 +44,8 @@ inline void take_gmsh_group_data(GmshContent& content) {
   content.notes.push_back(fmt::format("'{}': the data 'gmsh:physical' are the physical groups", content.file));
 }
 
-/// The copies of an element become one, which is in the groups of all; what is in one group twice stays, to be rejected.
+/// The copies of an element become one, which is in the groups of all; what is in one group twice stays, to be
+/// rejected.
 inline void join_gmsh_copies(GmshContent& content, int dim) {
   if (!content.lists_copies) return;
   auto const sorted = [](std::vector<std::int64_t> nodes) {

@@ -57,7 +57,8 @@ inline void read_gmsh_elements_2(GmshStream& stream, GmshContent& content) {
   }
 }
 
-/// $Entities, $PartitionedEntities, $Nodes and $Elements of MSH 4.0 and 4.1. Gmsh 4.8 Reference Manual, sections 9.1 and 9.2
+/// $Entities, $PartitionedEntities, $Nodes and $Elements of MSH 4.0 and 4.1. Gmsh 4.8 Reference Manual, sections 9.1
+/// and 9.2
 class GmshSections4 {
  public:
   explicit GmshSections4(bool is_40) : is_40_(is_40) {}
