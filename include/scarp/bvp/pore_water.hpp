@@ -35,11 +35,9 @@ namespace scarp {
 ///
 /// Quadratic elements have Taylor and Hood's pressures. Those of linear ones are stabilised by their projection onto
 /// the mean of the element (Dohrmann and Bochev 2004; White and Borja 2008),
-/// \f$ \frac{1}{2G} \int (q - \bar q)(\Delta u - \overline{\Delta u})\,dv \f$. In a step that is shorter than elements
-/// of size h can show (Vermeer and Verruijt 1981, with the modulus 2G), changes of pressure are smoothed as in a longer
-/// one:
+/// \f$ \frac{1}{2G} \int (q - \bar q)(\Delta u - \overline{\Delta u})\,dv \f$. Steps that are shorter than elements of
+/// size h can show (Vermeer and Verruijt 1981, with the modulus 2G) smooth changes of pressure as longer ones do, by
 /// \f$ \max\left(\frac{h^2}{12 G} - \Delta t \frac{k}{\mu}, 0\right) \int \nabla q \cdot \nabla \Delta u\,dv \f$.
-/// Neither makes water.
 ///
 /// With `at_rest`, u is 0 above the water table, and water cavitates: where its pressure p is below p_c, vapour takes
 /// the share (p_c - p)/K_v of the volume, lumped at the corners: p falls by 1 kPa for a tenth of the volume.

@@ -112,8 +112,7 @@ class PointPath {
   }
 
   /// Continues by a length, negative for the way back, in one increment, or more to converge; each is committed.
-  /// \return iterations_spent, unreachable (strain beyond a tenth) or a response's reason, with what was committed
-  /// before
+  /// \return iterations_spent, unreachable (strain beyond a tenth) or a response's reason; earlier parts stay committed
   PathReport advance(double length, Executor const& executor) {
     require_finite("length of a path", length);
     PathReport report;

@@ -41,7 +41,8 @@ Vector<Dim> principal_values(Tensor<Dim> const& symmetric) {
 /// Derivative of an isotropic function of a symmetric tensor from the function's principal values.
 /// of_values: derivative of the function's principal values with respect to the argument's, shape (3, 3)
 /// argument, value: principal values of both, in the same order; directions: common, as columns
-/// \f$ D = \sum_{ab} D_{ab}\, M_a \otimes M_b + \sum_{a<b} 4 g_{ab}\, S_{ab} \otimes S_{ab},\; 2 g_{ab} = (s_a - s_b)/(e_a - e_b) \f$
+/// \f$ D = \sum_{ab} D_{ab}\, M_a \otimes M_b + \sum_{a<b} 4 g_{ab}\, S_{ab} \otimes S_{ab},
+///     \; 2 g_{ab} = (s_a - s_b)/(e_a - e_b) \f$
 /// with M_a = n_a n_a, S_ab the symmetric part of n_a n_b (Ogden 1984; de Souza Neto et al., app. A). Equal arguments
 /// give the limit.
 /// \return with respect to engineering strain, shape (6, 6)

@@ -88,8 +88,7 @@ class PoreFlow {
   static constexpr std::string_view name_of_ratio = "void ratio of the ground with pore water";
 
   Flow const& flow_in(Field const& field, int element) const { return flows_[index(field.region_of(element))]; }
-  /// Void ratio that counts: where a material shrinks to its grains and beyond, as at the tip of a fault, pores stay
-  /// open a little.
+  /// Void ratio that counts: where a material shrinks to its grains and beyond, pores stay open a little.
   double pores(int point) const { return std::max(void_ratio_[index(point)], 0.01); }
   double mean_void_ratio(Field const& field, int element) const {
     int const first = field.grid().first_point(element);
