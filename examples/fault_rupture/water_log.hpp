@@ -41,7 +41,10 @@ class WaterLog : public scarp::NeverStops {
   void attempted(Problem const& problem, scarp::StepReport const& report) {
     rest_.attempted(problem, report);
     if (!report.verdict.acceptable()) return;
-    if (!(report.load > 0.0)) expelled_at_rest_ = water_of(problem).expelled();
+    if (!(report.load > 0.0)) {
+      begun_ = water_of(problem).time();
+      expelled_ = water_of(problem).expelled();
+    }
     if (report.load < 0.0) return;
     rows_.push_back(row_of(problem, report.load));
     std::apply([&](auto... values) { table_.add(values...); }, rows_.back());
@@ -58,7 +61,7 @@ class WaterLog : public scarp::NeverStops {
     }
   }
 
-  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_, expelled_at_rest_)
+  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_, begun_, expelled_)
 
  private:
   static constexpr std::array names{"throw_over_depth",
@@ -100,11 +103,11 @@ class WaterLog : public scarp::NeverStops {
       tilt = motion.tilt;
     }
     return {std::min(load, scene_.throw_to) / unit_,
-            water.time() - scene_.structure.times.begin(scene_.structure.start()),
+            water.time() - begun_,
             least,
             most,
             ratio,
-            water.expelled() - expelled_at_rest_,
+            water.expelled() - expelled_,
             water.vapour(),
             survey.surface.surface_x50,
             survey.surface.surface_slope_max,
@@ -117,7 +120,8 @@ class WaterLog : public scarp::NeverStops {
   scarp::CsvLog table_;
   scarp::GroundAtRest<2> rest_;
   std::vector<Row> rows_;
-  double expelled_at_rest_ = 0.0;  ///< [m3]
+  double begun_ = 0.0;     ///< time when the fault begins to move [s]
+  double expelled_ = 0.0;  ///< until then [m3]
 };
 
 template <class Structure>

@@ -33,11 +33,12 @@ inline void set(RigidFooting& structure, Choice const& choice) {
 }
 
 #ifdef FAULT_RUPTURE_WATER
-/// The level of the water and the times follow when ground and fault are known.
+/// Its times follow when ground and fault are known.
 template <class Structure>
 void set(scarp::Saturated<Structure>& structure, Choice const& choice) {
   set(static_cast<Structure&>(structure), choice);
   structure.void_ratio = choice.void_ratio;
+  structure.pond = -choice.water_table.value_or(0.0);
   structure.flow = scarp::KozenyCarman::of_conductivity(choice.conductivity, choice.void_ratio);
 }
 #endif
@@ -53,8 +54,7 @@ SceneType without_soil(Choice const& choice) {
   scene.surcharge = choice.surcharge;
   scene.throw_to = choice.throw_over_depth * scene.ground.depth();
   set(scene.structure, choice);
-  if constexpr (requires { scene.structure.at_rest; }) {
-    scene.structure.at_rest.level = scene.ground.surface_level() - choice.water_table.value_or(0.0);
+  if constexpr (requires { scene.structure.times; }) {
     scene.structure.times = {.rupture = scene.throw_to / std::sin(scene.fault.dip) / choice.slip_rate,
                              .drainage = choice.drain};
   }

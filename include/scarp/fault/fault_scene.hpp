@@ -167,7 +167,8 @@ struct SCARP_EXPORT FaultScene {
     return throw_to;
   }
 
-  /// Last stage, where end() is beyond the throw: the bedrock rests, and what its motion has begun ends, such as drainage.
+  /// Last stage, where end() is beyond the throw: the bedrock rests, and what its motion has begun ends, such as
+  /// drainage.
   template <class ProblemType, class Observer>
   RunReport rest(ProblemType& problem, Observer& observer) const {
     LoadStepping stage = stepping;

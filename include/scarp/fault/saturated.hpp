@@ -12,13 +12,11 @@
 
 namespace scarp {
 
-/// Times of a rupture of saturated ground. Before the fault moves, and while a structure is placed, all excess
-/// pressures drain.
+/// Times of a rupture of saturated ground.
 struct RuptureTimes {
   double rupture = 1.0;   ///< that the whole throw takes [s]
   double drainage = 0.0;  ///< after the throw, while the bedrock rests [s]
 
-  static constexpr double before = 1e9;      ///< that the ground has to drain at rest, and again below a structure [s]
   static constexpr double per_decade = 6.0;  ///< steps of drainage, from a tenth of the rupture's time on
 
   /// \throws InputError for a rupture that takes no time, and a negative time of drainage
@@ -27,15 +25,14 @@ struct RuptureTimes {
     require_not_negative("time of drainage", drainage);
   }
 
-  /// Time [s] when the fault begins to move. start: load factor of the ground at rest
-  static double begin(double start) { return start < 0.0 ? 2.0 * before : before; }
   /// Load factor at the end of the drainage, in which it grows by a thousandth of the throw [m].
   double end(double throw_to) const { return drainage > 0.0 ? 1.001 * throw_to : throw_to; }
-  /// Time [s] over the load factor, the throw [m].
-  TimeFunction clock(double start, double throw_to) const {
+  /// Time [s] over the load factor, the throw [m]. start: load factor of the ground at rest; before: time [s] that it
+  /// has to drain there, and again while a structure is placed
+  TimeFunction clock(double start, double throw_to, double before) const {
     std::vector<std::pair<double, double>> knots{{start, before}};
-    if (start < 0.0) knots.emplace_back(0.0, begin(start));
-    double const ruptured = begin(start) + rupture;
+    if (start < 0.0) knots.emplace_back(0.0, 2.0 * before);
+    double const ruptured = knots.back().second + rupture;
     knots.emplace_back(throw_to, ruptured);
     double const first = std::min(rupture / 10.0, drainage);
     double const steps = drainage > 0.0 ? std::floor(per_decade * std::log10(drainage / first)) + 1.0 : 0.0;
@@ -47,16 +44,16 @@ struct RuptureTimes {
   }
 };
 
-/// Ground whose pores are full of water, below its table, and what stands on it. The scene's unit weight and its soil's
-/// stresses are effective ones: those of ground in water, see Water::buoyant_weight, where the table is at the surface
-/// or above it.
+/// Ground whose pores are full of water, and what stands on it. The scene's unit weight and its soil's stresses are
+/// those of ground in water, see Water::buoyant_weight. Before the fault moves, and while a structure is placed, all
+/// excess pressures drain.
 /// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {
   Flow flow{};
   double shear_modulus = 0.0;  ///< of the ground in size [Pa], see PoreWaterSettings
   double void_ratio = 0.7;     ///< at the start
-  WaterAtRest at_rest{};       ///< its level and lowest pressure
+  double pond = 0.0;           ///< depth of the water that stands on the surface [m]
   RuptureTimes times{};
 
   /// throw_to [m]
@@ -65,11 +62,18 @@ struct Saturated : Structure {
   PoreWater<Grid, Flow> attached(Grid const& grid, double throw_to) const {
     static_assert(std::same_as<decltype(Structure::attached(grid)), NoAttachment>,
                   "scarp: a structure that is attached to the mesh cannot stand on saturated ground yet");
+    require_not_negative("depth of the water on the ground", pond);
+    double const surface = surface_level(grid.mesh());
+    double const depth = surface - bottom_level(grid.mesh());
+    double const diffusion = 2.0 * shear_modulus * detail::validated(flow).mobility(void_ratio);  // [m2/s]
+    constexpr double drained =
+        1e6;  // times that diffusion through the depth takes: a millionth of the pressure is left
+    double const before = drained * depth * depth / require_positive("shear modulus and conductivity", diffusion);
     PoreWater<Grid, Flow> water(grid, flow,
                                 {.shear_modulus = shear_modulus,
                                  .void_ratio = void_ratio,
-                                 .clock = detail::validated(times).clock(this->start(), throw_to),
-                                 .at_rest = at_rest});
+                                 .clock = detail::validated(times).clock(this->start(), throw_to, before),
+                                 .at_rest = WaterAtRest{.level = surface + pond}});
     for (auto const& region : grid.regions())
       if (region != "soil") water.exclude(region);
     return water;

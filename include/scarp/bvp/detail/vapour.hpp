@@ -17,7 +17,7 @@ struct Above {
   std::vector<int> elements;  ///< with all corners
 };
 
-/// level: height of the water table [m]
+/// level: height of the water table [m] \throws InputError for one below the whole ground
 template <class Field>
 Above above(Field const& field, double level) {
   auto const& nodes = field.grid().nodes();
@@ -28,6 +28,9 @@ Above above(Field const& field, double level) {
   Above found;
   for (int corner = 0; corner < field.count(); ++corner)
     if (is_above(corner)) found.corners.push_back(corner);
+  if (count(found.corners) == field.count())
+    reject("the water table is at a height of {} m (the ground begins at {} m and has none): raise it", level,
+           up(lowest));
   for (int element = 0; element < count(field.grid().mesh().elements); ++element)
     if (std::ranges::all_of(field.corners_of(element), is_above)) found.elements.push_back(element);
   return found;
