@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 import sys
+import textwrap
 import xml.etree.ElementTree
 
 import reference
@@ -61,6 +62,17 @@ def with_links(text, source, page, api):
     return "\n".join(lines) + "\n"
 
 
+def with_tabs(text):
+    """Text in which blocks of C++ and of Python, each right below the one before, are tabs."""
+    block = r"^```(cpp|python)\n(?:(?!```).*\n)*```\n"
+
+    def tabs(match):
+        return "\n".join(f'=== "{dict(cpp="C++", python="Python")[one[1]]}"\n\n{textwrap.indent(one[0], "    ")}'
+                         for one in re.finditer(block, match[0], re.MULTILINE))
+
+    return re.sub(f"(?:{block}){{2,}}", tabs, text, flags=re.MULTILINE)
+
+
 def with_whole_options(text):
     """Text whose options get a class of their own, so that no line ends within one."""
     return re.sub(r"`(--[\w-]+)`(?!\{)", r"`\1`{.option}", text)
@@ -86,7 +98,7 @@ def main(folder, tags):
     for source in sorted({source for source in sources if source.endswith(".md")}):
         page = site_path(source)
         (folder / page).parent.mkdir(parents=True, exist_ok=True)
-        (folder / page).write_text(with_links((ROOT / source).read_text(), source, page, api))
+        (folder / page).write_text(with_tabs(with_links((ROOT / source).read_text(), source, page, api)))
     for page, text in reference.pages(tags, api).items():
         (folder / page).parent.mkdir(parents=True, exist_ok=True)
         (folder / page).write_text(with_whole_options(text))

@@ -111,13 +111,12 @@ Material<Dim> made(std::string const& kind, py::dict keywords) {
     if constexpr (requires { recipe.complete(given); }) recipe.complete(given);
     return bits_of(recipe);
   });
-  py::gil_scoped_release const release;
-  Signals signals;
-  return prepared<Dim>(kind, bits, threads, [&](int done, int total, std::string const& text) {
+  auto const tell = [&](int done, int total, std::string const& text) {
     if (progress.is_none()) return;
     py::gil_scoped_acquire const acquire;
     progress(done, total, text);
-  });
+  };
+  return interruptible([&] { return prepared<Dim>(kind, bits, threads, tell); });
 }
 
 /// The options of a sand's file as keywords. given: keywords that replace some
@@ -155,8 +154,8 @@ py::object load(std::string_view bytes) {
   scarp::StateReader reader(scarp::detail::payload_of(points_format, bytes));
   int dimensions = 0;
   reader("dimensions", dimensions);
-  if (dimensions == 2) return py::cast(Points<2>::read(reader));
-  if (dimensions == 3) return py::cast(Points<3>::read(reader));
+  if (dimensions == 2) return py::cast(interruptible([&] { return Points<2>::read(reader); }));
+  if (dimensions == 3) return py::cast(interruptible([&] { return Points<3>::read(reader); }));
   scarp::reject("it holds points of {} dimensions (2 or 3 are known): save it again", dimensions);
 }
 
@@ -175,7 +174,8 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
   module.def(Dim == 2 ? "defaults" : "defaults_in_space", &defaults<Dim>);
   module.def("points", [](Material<Dim> const& material, py::object const& positions, py::object const& volumes,
                           double length, py::object const& depths, std::optional<std::vector<int>> indices) {
-    return std::make_unique<All>(material, places_of<Dim>(positions, volumes, length, depths, std::move(indices)));
+    auto places = places_of<Dim>(positions, volumes, length, depths, std::move(indices));
+    return interruptible([&] { return std::make_unique<All>(material, std::move(places)); });
   });
   py::class_<All>(module, points_name, "Material points; see scarp.MaterialPoints.")
       .def("__len__", [](All& self) { return self.now().size(); })

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -177,6 +178,34 @@ class OwnAnalysis {
   std::thread::id owner_;       ///< thread that works
 };
 
+/// Files of fields, which one run writes at a time.
+struct OwnSeries {
+  scarp::FieldSeries files;
+  bool is_in_use = false;  ///< changes under the interpreter's lock
+};
+
+/// The files, or none, of a run as long as it lives.
+class SeriesUse {
+ public:
+  /// \throws std::runtime_error
+  explicit SeriesUse(OwnSeries* series) : series_(series) {
+    if (!series_) return;
+    if (series_->is_in_use)
+      throw std::runtime_error(
+          "the series of files is being written by another run (it serves one at a time): give each run its own");
+    series_->is_in_use = true;
+  }
+  SeriesUse(SeriesUse const&) = delete;
+  SeriesUse& operator=(SeriesUse const&) = delete;
+  ~SeriesUse() {
+    if (series_) series_->is_in_use = false;
+  }
+  scarp::FieldSeries* files() const { return series_ ? &series_->files : nullptr; }
+
+ private:
+  OwnSeries* series_;
+};
+
 using Clock = std::chrono::steady_clock;
 
 Clock::time_point end_of(std::optional<double> const& seconds) {
@@ -217,14 +246,15 @@ py::dict report_of(scarp::RunReport const& run, std::string why) {
 }
 
 template <int Dim>
-py::dict advance(OwnAnalysis<Dim>& own, double load, py::object const& observer, scarp::FieldSeries* series,
+py::dict advance(OwnAnalysis<Dim>& own, double load, py::object const& observer, OwnSeries* series,
                  std::optional<double> seconds) {
+  SeriesUse const use(series);
   auto const [run, why] = own.at_work([&](scarp::Analysis<Dim>& analysis) {
     py::gil_scoped_release const release;
     Signals signals;
-    Watcher<Dim> watcher{observer, series, signals, end_of(seconds)};
+    Watcher<Dim> watcher{observer, use.files(), signals, end_of(seconds)};
     auto const report = analysis.to(load, watcher);
-    if (series) series->ended(analysis.problem(), report.load);
+    if (use.files()) use.files()->ended(analysis.problem(), report.load);
     return std::pair(report, analysis.why(report));
   });
   return report_of(run, why);
@@ -237,13 +267,14 @@ py::dict collapse_of(scarp::Collapse const& end) {
 
 template <int Dim>
 py::dict find_collapse(OwnAnalysis<Dim>& own, double load, double failed, double failing, py::object const& observer,
-                       scarp::FieldSeries* series, std::optional<double> seconds) {
+                       OwnSeries* series, std::optional<double> seconds) {
+  SeriesUse const use(series);
   return collapse_of(own.at_work([&](scarp::Analysis<Dim>& analysis) {
     py::gil_scoped_release const release;
     Signals signals;
-    Watcher<Dim> watcher{observer, series, signals, end_of(seconds)};
+    Watcher<Dim> watcher{observer, use.files(), signals, end_of(seconds)};
     auto end = scarp::find_collapse(analysis, load, {.failed = failed, .failing = failing}, watcher);
-    if (series) series->ended(analysis.problem(), end.load);
+    if (use.files()) use.files()->ended(analysis.problem(), end.load);
     return end;
   }));
 }
@@ -361,9 +392,8 @@ void bind(py::module_& module, std::string const& suffix) {
                        double largest, double gradient, double floor, int threads) {
         auto const settings =
             settings_of(tolerance, max_iterations, first, smallest, largest, gradient, floor, threads);
-        py::gil_scoped_release const release;
-        Signals signals;
-        return model.used([&](auto const& own) { return std::make_unique<All>(own, settings); });
+        return interruptible(
+            [&] { return model.used([&](auto const& own) { return std::make_unique<All>(own, settings); }); });
       }))
       .def("to", &advance<Dim>)
       .def("find_collapse", &find_collapse<Dim>)
@@ -412,6 +442,18 @@ void bind(py::module_& module, std::string const& suffix) {
              auto values = listed_of(grid.point_count(), [&](int k) { return grid.deformation(k); });
              return array_of<double>(std::move(values), {Dim, Dim}, {number_size, Dim * number_size});
            })
+      .def("regions_without_means",
+           [](All const& self) {
+             auto const& problem = self.seen().problem();
+             auto const& grid = problem.grid();
+             std::set<std::string> alone(grid.regions().begin(), grid.regions().end());
+             auto const* const means = problem.points().means();
+             for (int k = 0; means && k < grid.point_count(); ++k) {
+               if (means->mean().of(k).size() > 1)
+                 alone.erase(grid.regions()[scarp::detail::index(grid.site(k, 0.0).region)]);
+             }
+             return alone;
+           })
       .def("quantities", [](All const& self, int point) { return quantities(self.seen().problem().points(), point); })
       .def("picture",
            [](All const& self, int point) -> py::object {
@@ -457,12 +499,12 @@ void bind_problems(py::module_& module) {
       .def_property_readonly("reason", [](scarp::StepReport const& step) { return scarp::name(step.verdict.reason); })
       .def_property_readonly("iterations", &scarp::StepReport::iterations)
       .def_property_readonly("residual", &scarp::StepReport::residual);
-  py::class_<scarp::FieldSeries>(
+  py::class_<OwnSeries>(
       module, "FieldSeries",
       "Fields for ParaView: folder/fields.pvd, written after the first load step and then `count` times up to the load "
       "factor `to`.")
       .def(py::init([](std::filesystem::path const& folder, double to, int count) {
-             return std::make_unique<scarp::FieldSeries>(folder, scarp::LoadSchedule{.to = to, .count = count});
+             return OwnSeries{scarp::FieldSeries(folder, {.to = to, .count = count})};
            }),
            py::arg("folder"), py::arg("to") = 1.0, py::arg("count") = 10);
   bind<2>(module, "");

@@ -40,4 +40,12 @@ class Signals {
   scarp::InterruptionCheck const check_{&look_};
 };
 
+/// Calls work without the interpreter's lock, while Ctrl-C ends it.
+template <class Work>
+auto interruptible(Work const& work) {
+  py::gil_scoped_release const release;
+  Signals signals;
+  return work();
+}
+
 }  // namespace python_points

@@ -29,6 +29,11 @@ bool attached_to(scarp::Model<GridType::dim>& model, WaterOptions const& options
     scarp::reject(
         "water has a conductivity of {} m/s and a grain of {} m (one of them gives the permeability): leave one out",
         options.conductivity, options.grain);
+  if (double const start = options.clock(0.0); start != 0.0)
+    scarp::reject(
+        "the clock of the pore water shows {} s at the load factor 0 (0 s is expected there, where the initial state "
+        "is): count the time from there",
+        start);
   scarp::Water const water{.bulk_modulus = options.bulk_modulus};
   EitherFlow const flow{options.grain != 0.0, {options.conductivity, water}, {.grain = options.grain, .water = water}};
   scarp::PoreWaterSettings settings{

@@ -193,6 +193,9 @@ else:
     expect(len(read.notes) == 2 and "(1): name them" in read.notes[0] and "sets of points are left out (corner)" in read.notes[1], f"{read.notes}")
     whole = meshio.Mesh(flat, cells[:2], cell_sets={"bottom": [[], [0]], "others": [[], [1, 2]]})
     expect(scarp.Mesh.from_meshio(whole).notes == [], f"nothing is lost, but there are {scarp.Mesh.from_meshio(whole).notes}")
+    within = scarp.Mesh.from_meshio(meshio.Mesh(flat, cells[:1], cell_sets={"ground": [[0, 1]], "clay": [[1]]}))
+    expect((within.regions, within.element_region.tolist()) == (["ground", "clay"], [0, 1]) and "the set clay are in an earlier one" in within.notes[0],
+           f"{within.regions} {within.element_region} {within.notes}")
     clockwise = scarp.Mesh.from_meshio(meshio.Mesh(flat, [("triangle", [[0, 2, 1], [0, 2, 3]])]))
     expect(clockwise.elements.tolist() == [[0, 2, 1], [0, 2, 3]], f"elements are turned: {clockwise.elements}")
     back = scarp.Mesh.from_meshio(box("hex8").quadratic().to_meshio())

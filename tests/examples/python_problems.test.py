@@ -168,7 +168,8 @@ for load, exact in ((1.0, 1.0), (2.0, 0.9493), (3.0, 0.3708)):
 saved = pickle.loads(pickle.dumps(analysis))
 expect(np.array_equal(saved.pore_pressures, analysis.pore_pressures), "saved pressures differ")
 rejected(ValueError, "no water", lambda: scarp.Analysis(footing(lambda rest: One(2, **rest))).pore_pressures)
-rejected(ValueError, "clock of the pore water", lambda: column.water(shear_modulus=1.0, clock=[(0, 1), (1, 0)]))
+for clock in ([(0, 0), (1, -1)], [(0, 1), (1, 2)], [(1, 5)], [(-1, 0), (1, 1)]):
+    rejected(ValueError, "clock of the pore water", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=clock))
 rejected(ValueError, "no boundary 'nowhere'", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=[(0, 0)], drained="nowhere"))
 
 # Stages, saved in between: a copy goes on with the same bits, also in another process, with packings and means.
@@ -194,6 +195,8 @@ with tempfile.TemporaryDirectory() as scratch:
     analysis.save(str(file))
     program = f"import scarp; own = scarp.load_analysis({str(file)!r}); run = own.to(1.5); print(own.reaction('top').tobytes().hex(), run.iterations)"
     told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
+    other = scarp.load_analysis(file, threads=1, tolerance=1e-3)
+    rejected(TypeError, "treads", lambda: scarp.load_analysis(file, treads=1))
     unknown = f"import pickle, sys; import scarp\nclass Own: pass\npickle.dump(Own(), open({str(file) + 'x'!r}, 'wb'))"
     subprocess.run([sys.executable, "-c", unknown], env={**os.environ, "PYTHONPATH": str(module)}, check=True)
     rejected(ValueError, "import the class of a material", lambda: scarp.load_analysis(str(file) + "x"))
@@ -205,6 +208,7 @@ copied = pickle.loads(pickle.dumps(analysis))
 expect(copied.load == 0.5 and np.array_equal(copied.stresses, analysis.stresses) and np.array_equal(copied.positions, analysis.positions), "a copy differs")
 run, again = analysis.to(1.5), copied.to(1.5)
 expect(run.iterations == again.iterations and np.array_equal(analysis.stresses, copied.stresses), "a copy goes on with other bits")
+expect(other.load == 0.5 and other.to(1.5).largest_residual <= 1e-3 < run.largest_residual, "a copy with another tolerance keeps the former one")
 expect(told.stdout.split() == [analysis.reaction("top").tobytes().hex(), str(run.iterations)], f"another process: {told.stdout} {told.stderr}")
 expect(analysis.picture(0)["grains"].shape == (40, 6) and "coordination" in analysis.quantities(0), "no picture of a packing")
 expect(abs(analysis.displacement("top", 0) / 0.0075 - 1.0) < 1e-12, f"the top is at {analysis.displacement('top', 0)} at the load factor 1.5")
@@ -343,6 +347,11 @@ expect(run.reason == "interrupted" and run.load == analysis.load == 0.0, f"{run}
 rejected(ValueError, "time limit of a run", lambda: analysis.to(1.0, time_limit=-1.0))
 for take in (lambda: scarp.ground_of_discs(grains=50), lambda: scarp.ground_of_ellipses(grains=50, depths=[])):
     rejected(ValueError, "no depths of the ground's points", take)
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    for length in (1.0, 1e-3):
+        scarp.Analysis(sheared(length=length))
+expect([str(one.message)[:36] for one in said] == ["a length of 0.001 m reaches no neigh"], f"{[str(one.message) for one in said]}")
 rejected(ValueError, "nonlocal length", lambda: scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])).material("soil", made, length=-3.0))
 
 
@@ -389,35 +398,83 @@ while worker.is_alive():
 worker.join()
 expect(counted > 0 and any("serves one call at a time" in trouble for trouble in troubles), f"{counted} rounds, {troubles[:1]}")
 
-# Ctrl-C within a second; the committed state remains and goes on.
+# Ctrl-C within a second: of CPU time for each thread, of which a busy machine gives less. The committed state remains and goes on as its copy does.
 program = """
-import os, signal, sys, threading, time
-import scarp
-model = scarp.Model(scarp.box_mesh("quad8", [2.0, 2.0], [6, 6]))
-model.fix("bottom")
-model.move("top", 0, 0.2)
-model.fix("top", axis=1)
-model.material("soil", scarp.discs(grains=400))
-analysis = scarp.Analysis(model, threads=2)
-moments = []
-def interrupt():
-    time.sleep(3.0)
-    moments.append(time.monotonic())
-    os.kill(os.getpid(), signal.SIGINT)
-threading.Thread(target=interrupt).start()
-try:
-    analysis.to(1.0)
-    print("not interrupted")
-except KeyboardInterrupt:
-    print(time.monotonic() - moments[0] < 1.0)
-import pickle
-print(pickle.loads(pickle.dumps(analysis)).load == analysis.load < 1.0)
-more = analysis.load + 1e-3
-analysis.to(more)
-print(analysis.load == more)
+import os, pickle, signal, threading, time
+import numpy as np, scarp
+for size, threads, material in ((6, 2, scarp.discs(grains=400)), (40, 1, scarp.mohr_coulomb(young=20e6, poisson=0.3, cohesion=5e3, friction=0.5))):
+    model = scarp.Model(scarp.box_mesh("quad8", [2.0, 2.0], [size, size]))
+    model.fix("bottom")
+    model.move("top", 0, 0.2)
+    model.fix("top", axis=1)
+    model.gravity(18e3)
+    model.material("soil", material)
+    analysis = scarp.Analysis(model, threads=threads)
+    moments = []
+    def interrupt():
+        time.sleep(2.0)
+        moments.append(time.process_time())
+        os.kill(os.getpid(), signal.SIGINT)
+    threading.Thread(target=interrupt).start()
+    try:
+        analysis.to(1.0)
+        print("not interrupted")
+    except KeyboardInterrupt:
+        late = time.process_time() - moments[0]
+        print(late < threads or late)
+    copied = pickle.loads(pickle.dumps(analysis))
+    print(copied.load == analysis.load < 1.0)
+    more = analysis.load + 1e-3
+    analysis.to(more), copied.to(more)
+    print(analysis.load == more and np.array_equal(analysis.stresses, copied.stresses))
 """
 told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
-expect(told.stdout.split() == ["True"] * 3, f"Ctrl-C: {told.stdout} {told.stderr}")
+expect(told.stdout.split() == ["True"] * 6, f"Ctrl-C: {told.stdout} {told.stderr}")
+
+# Analyses go on in other processes with the same bits: forked, with threads of their own, and by pickles; one that is at work during a fork is refused there.
+program = """
+import multiprocessing, os, pickle, threading
+import numpy as np, scarp
+def sheared(size, grains):
+    model = scarp.Model(scarp.box_mesh("quad8", [2.0, 2.0], [size, size]))
+    model.fix("bottom")
+    model.move("top", 0, 0.01)
+    model.fix("top", axis=1)
+    model.material("soil", scarp.discs(grains=grains))
+    return scarp.Analysis(model, tolerance=1e-2, threads=2)
+def stepped(analysis):
+    analysis.to(0.2)
+    return analysis.stresses
+def forked(work):
+    if (process := os.fork()) == 0:
+        try:
+            work()
+        except RuntimeError as trouble:
+            os._exit(7 if "fork between calls" in str(trouble) else 1)
+        os._exit(0)
+    return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+if __name__ == "__main__":
+    analysis, busy = sheared(2, 40), sheared(6, 200)
+    analysis.to(0.1)
+    expected = stepped(pickle.loads(pickle.dumps(analysis)))
+    print(forked(lambda: np.array_equal(stepped(analysis), expected) or os._exit(2)))
+    for method in ("fork", "spawn"):
+        with multiprocessing.get_context(method).Pool(2) as pool:
+            print(sum(not np.array_equal(ended, expected) for ended in pool.map(stepped, [analysis] * 3)))
+    started = threading.Event()
+    worker = threading.Thread(target=lambda: busy.to(1.0, observers=lambda *told: started.set() or started.is_done))
+    started.is_done = False
+    worker.start()
+    started.wait()
+    print([forked(lambda: use(busy)) for use in (lambda own: own.stresses, lambda own: own.to(1.0), pickle.dumps)], forked(lambda: sheared(2, 40).to(0.1)))
+    started.is_done = True
+    worker.join()
+"""
+with tempfile.TemporaryDirectory() as scratch:
+    file = pathlib.Path(scratch) / "processes.py"
+    file.write_text(program)
+    told = subprocess.run([sys.executable, file], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
+expect(told.stdout.split("\n") == ["0", "0", "0", "[7, 7, 7] 0", ""], f"processes: {told.stdout} {told.stderr}")
 
 # A call that is rejected has changed nothing, what becomes of a caller's mesh neither.
 mesh = scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])
@@ -457,6 +514,15 @@ def loaded_later(factor):
 
 rejected(ValueError, "loads change at 2", lambda: scarp.reduce_strength(loaded_later))
 expect(isinstance(scarp.FieldSeries("output"), scarp.FieldSeries), "a series is of another type")
+
+# A series of files serves one run at a time, and the next one then.
+with tempfile.TemporaryDirectory() as scratch:
+    series = scarp.FieldSeries(scratch)
+    one, other = (scarp.Analysis(footing(lambda rest: One(2, **rest))) for _ in range(2))
+    one.to(0.1, observers=lambda own, step: rejected(RuntimeError, "one at a time", lambda: other.to(0.1, fields=series)), fields=series)
+    other.find_collapse(0.1, fields=series)
+    rejected(ZeroDivisionError, "at ", lambda: one.to(0.2, observers=fails, fields=series))
+    one.to(0.3, fields=series)
 
 # Wrong calls: each parameter of each function with each of these values ends in an exception in words, or in a use that the value allows.
 good_mesh = scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])

@@ -5,11 +5,14 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
+#include <functional>
 #include <memory>
+#include <stdexcept>
 
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
+#include "scarp/core/interruption.hpp"
 #include "scarp/core/random.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/linear_system.hpp"
@@ -137,6 +140,20 @@ TEST_CASE("a linear solver says that a singular or not finite matrix cannot be s
   CHECK(free_system(nothing, singular).weakest_dof() >= 0);  // without an entry, and then with entries of zero
   nothing.setIdentity();
   CHECK(free_system(0.0 * nothing, singular).weakest_dof() >= 0);
+}
+
+TEST_CASE("a check of the caller ends work before each factorisation; the former factors stay") {
+  SparseMatrix const matrix = random_matrix(8, 5, false);
+  auto system = free_system(matrix);
+  Eigen::VectorXd const right = Eigen::VectorXd::LinSpaced(8, -1.0, 2.0);
+  Eigen::VectorXd const before = system.solve(right);
+  std::function<void()> const check = [] { throw std::length_error("enough"); };
+  {
+    scarp::InterruptionCheck const checked(&check);
+    CHECK_THROWS_AS(static_cast<void>(system.factorize({2.0 * matrix})), std::length_error);
+    CHECK_THROWS_AS(static_cast<void>(system.weakest_dof()), std::length_error);
+  }
+  CHECK(system.solve(right) == before);
 }
 
 TEST_CASE("the free part of a system is the full one without prescribed rows and columns") {

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _points
+from .meshes import plane_axes
 from .problem import Analysis, Floats
 
 
@@ -40,10 +41,9 @@ def plot_packing(picture: Optional[Mapping[str, npt.NDArray[np.float64]]], axes:
     """
     if picture is None:
         raise ValueError("the point has no packing to be drawn (its material is another one): take a point of a packing")
-    import matplotlib.pyplot as plt
     from matplotlib.collections import EllipseCollection, LineCollection
 
-    axes = plt.subplots(figsize=(5.0, 5.0))[1] if axes is None else axes
+    axes = plane_axes(axes, 5.0, 5.0)
     grains, contacts, cell = picture["grains"], picture["contacts"], picture["cell"]
     angle = np.degrees(np.arctan2(grains[:, 5], grains[:, 4]))
     axes.add_collection(EllipseCollection(2.0 * grains[:, 2], 2.0 * grains[:, 3], angle, units="xy", offsets=grains[:, :2], offset_transform=axes.transData,
@@ -55,7 +55,6 @@ def plot_packing(picture: Optional[Mapping[str, npt.NDArray[np.float64]]], axes:
     frame = corner + np.array([[0.0, 0.0], cell[:, 0], cell.sum(axis=1), cell[:, 1], [0.0, 0.0]])
     axes.add_collection(LineCollection([frame], colors="#8a8172", linewidths=0.8, linestyles="dashed"))
     axes.autoscale_view()
-    axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
     return axes
 
 

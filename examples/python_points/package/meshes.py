@@ -57,6 +57,15 @@ def _numbers(values: Any, what: str, shape: Tuple[int, ...], bound: int, bounded
     return found
 
 
+def plane_axes(axes: Any, width: float, height: float) -> Any:
+    """The axes, by default new ones of this size [inches], for positions in metres."""
+    import matplotlib.pyplot as plt
+
+    axes = plt.subplots(figsize=(width, height))[1] if axes is None else axes
+    axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
+    return axes
+
+
 @dataclasses.dataclass
 class Mesh:
     """Nodes, elements of one kind, the regions that they belong to, and named boundaries.
@@ -275,7 +284,7 @@ class Mesh:
         import matplotlib.pyplot as plt
         from matplotlib.collections import LineCollection, PolyCollection
 
-        axes = plt.subplots(figsize=(8.0, 4.0))[1] if axes is None else axes
+        axes = plane_axes(axes, 8.0, 4.0)
         around = self.corners
         if self.element in _linear:
             around = np.stack([around, self.elements[:, self._shape.corners:]], axis=2).reshape(len(self.elements), -1)
@@ -286,7 +295,6 @@ class Mesh:
             lines = self.nodes[np.asarray(facets)[:, [0, 2, 1] if self.element in _linear else [0, 1]]]
             axes.add_collection(LineCollection(lines, colors=plt.get_cmap("tab10")(k % 10), linewidths=2.0, label=name))
         axes.autoscale_view()
-        axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
         return axes
 
@@ -335,6 +343,7 @@ class Mesh:
         boundaries: Dict[str, List[Any]] = {}
         nameless = 0
         others: Dict[str, int] = {}
+        shared: Dict[str, int] = {}
         physical = mesh.cell_data.get("gmsh:physical")
         for k, block in enumerate(mesh.cells):
             in_sets = {name: np.asarray(numbers[k], dtype=int) for name, numbers in mesh.cell_sets.items()
@@ -345,6 +354,7 @@ class Mesh:
                 for tag in np.unique(tags[tags > 0]):
                     of_block[tags == tag] = number(names.get((int(tag), dims[kind]), f"physical_{tag}"))
                 for name, chosen in in_sets.items():
+                    shared[name] = shared.get(name, 0) + np.count_nonzero(of_block[chosen] >= 0)
                     of_block[chosen] = number(name)
                 if (of_block < 0).any():
                     of_block[of_block < 0] = number("mesh" if regions else "soil")
@@ -359,6 +369,8 @@ class Mesh:
             else:
                 others[block.type] = others.get(block.type, 0) + len(block.data)
         notes = [f"cells {other} are left out ({count}): the elements are {kind}, their facets {_facets_in_meshio[element]}" for other, count in others.items()]
+        notes += [f"elements of the set {name} are in an earlier one or a physical group too ({count}): they belong to {name}"
+                  for name, count in shared.items() if count > 0]
         if nameless > 0:
             notes.append(f"facets {_facets_in_meshio[element]} without a physical group or set are in no boundary ({nameless}): name them by name_boundary")
         if mesh.point_sets:

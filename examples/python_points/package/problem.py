@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from . import _points
 from ._points import FieldSeries
-from .meshes import Mesh, Path
+from .meshes import Mesh, Path, plane_axes
 
 Floats = npt.NDArray[np.float64]
 Sides = Union[str, Sequence[str]]
@@ -368,14 +368,22 @@ class Analysis:
         if not isinstance(model, Model):
             raise TypeError(f"the model is {type(model).__name__} (a scarp.Model is expected): make one")
         self.model = model
-        self._settings = (None if tolerance is None else float(tolerance), max_iterations, float(first), float(smallest), float(largest),
-                          float(max_displacement_gradient), float(tangent_floor), threads)
+        self._settings: Dict[str, Any] = {
+            "tolerance": None if tolerance is None else float(tolerance), "max_iterations": max_iterations, "first": float(first), "smallest": float(smallest),
+            "largest": float(largest), "max_displacement_gradient": float(max_displacement_gradient), "tangent_floor": float(tangent_floor), "threads": threads}
         self._recipe = (model._made, tuple(model._calls))  # what later calls change in the model is not of this analysis
         model._has_analysis = True
-        self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings)
+        self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings.values())
+        self._warn_of_short_lengths()
 
     def __repr__(self) -> str:
         return f"Analysis({self.model!r}, load factor {self.load:.6g})"
+
+    def _warn_of_short_lengths(self) -> None:
+        lengths = {values[0]: values[2] for name, values in self._recipe[1] if name == "material" and values[2] > 0.0}
+        for region in sorted(self._analysis.regions_without_means() & lengths.keys()) if lengths else []:
+            warnings.warn(f"a length of {lengths[region]} m reaches no neighbour of any point of region '{region}', so that it has none: take a longer one or "
+                          "smaller elements", stacklevel=3)
 
     @property
     def mesh(self) -> Mesh:
@@ -560,15 +568,13 @@ class Analysis:
         """
         if self.model.dim != 2:
             raise ValueError("plot draws plane problems (this one is in space): write a file for ParaView, analysis.write(\"ground.vtu\")")
-        import matplotlib.pyplot as plt
         from matplotlib.collections import PolyCollection
 
         shown = self._of_elements(self.shear_strains() if values is None else values)
-        axes = plt.subplots(figsize=(8.0, 4.0))[1] if axes is None else axes
+        axes = plane_axes(axes, 8.0, 4.0)
         filled = PolyCollection(self.positions[self.mesh.corners], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
         axes.add_collection(filled)
         axes.autoscale_view()
-        axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
         axes.figure.colorbar(filled, ax=axes, label="shear strain" if values is None else label, shrink=0.6)
         return axes
 
@@ -632,14 +638,20 @@ def _bar(begin: float, end: float) -> Any:
     return tqdm(total=end, initial=begin, unit="load", bar_format="{l_bar}{bar}| {n:.3g}/{total:.3g} [{elapsed}<{remaining}]")
 
 
-def _analysis(recipe: Tuple[Any, ...], settings: Tuple[Any, ...], state: bytes) -> Analysis:
-    analysis = Analysis(_model(*recipe), *settings)
+def _analysis(recipe: Tuple[Any, ...], settings: Mapping[str, Any], state: bytes) -> Analysis:
+    analysis = Analysis(_model(*recipe), **settings)
     analysis._analysis.read(state)
     return analysis
 
 
-def load_analysis(file: Path) -> Analysis:
+def load_analysis(file: Path, **settings: Any) -> Analysis:
     """The analysis of a file of `Analysis.save`. As a pickle, such a file can run programs: load only your own.
+
+    Parameters
+    ----------
+    file : path
+    settings
+        Of `Analysis`, such as a tolerance or threads, instead of those that it was saved with.
 
     Raises
     ------
@@ -654,7 +666,7 @@ def load_analysis(file: Path) -> Analysis:
                              "where it was when it was saved") from trouble
     if not isinstance(found, Analysis):
         raise ValueError(f"'{os.fspath(file)}' holds {type(found).__name__} (an analysis is expected): give a file of Analysis.save")
-    return found
+    return _analysis(found._recipe, {**found._settings, **settings}, found._analysis.bytes()) if settings else found
 
 
 def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, most: float = 3.0, tolerance: float = 0.01, load: float = 1.0,

@@ -9,8 +9,8 @@
 namespace scarp {
 
 /// As long as it lives, long work on this thread, and on a team of threads that this one calls, runs a check between
-/// grains and DEM steps. What the check throws ends the work and leaves committed states as they are. Threads run it at
-/// the same time.
+/// grains, DEM steps, points and factorisations. What the check throws ends the work and leaves committed states as
+/// they are. Threads run it at the same time.
 class InterruptionCheck {
  public:
   /// check: outlives this object

@@ -14,6 +14,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/interruption.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/points/detail/shared_values.hpp"
@@ -61,6 +62,7 @@ class SCARP_EXPORT MaterialPoints {
     auto const nonlocal = std::ranges::find_if(materials_, [](auto const& one) { return one.means_ != nullptr; });
     bool const search = nonlocal != materials_.end();
     for (int point = 0; point < std::ssize(sites); ++point) {
+      InterruptionCheck::run();
       auto const k = detail::index(point);
       // The stiffness against fluctuation strain follows from the states of all points.
       bool const here = search || owned(point);

@@ -13,6 +13,7 @@
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
+#include "scarp/core/interruption.hpp"
 #include "scarp/core/linear_map.hpp"
 #include "scarp/solver/linear_solver.hpp"
 
@@ -71,6 +72,7 @@ class LinearSystem {
   /// Takes the rows and columns of the free degrees of freedom of a stiffness on all of them.
   /// \return singular_system or not_finite where there are no factors
   Verdict factorize(GroundStiffness const& stiffness) {
+    InterruptionCheck::run();
     matrix_ = reduced(stiffness.own);
     around_ = stiffness.around;
     iterate_ = stiffness.iterate;
@@ -83,8 +85,11 @@ class LinearSystem {
   /// Displacement [m] that needs a force [N], both of shape (free_count), as far as an iteration comes.
   Eigen::VectorXd solve(Eigen::VectorXd const& force) const {
     if (!around_) return solver_->solve(force);
-    return iterate_([this](Eigen::VectorXd const& x) { return product(x); },
-                    [this](Eigen::VectorXd const& right) { return solver_->solve(right); }, force);
+    auto const solved = [this](Eigen::VectorXd const& right) {
+      InterruptionCheck::run();
+      return solver_->solve(right);
+    };
+    return iterate_([this](Eigen::VectorXd const& x) { return product(x); }, solved, force);
   }
   /// Force [N] of a displacement [m], both of shape (free_count).
   Eigen::VectorXd product(Eigen::VectorXd const& displacement) const {
@@ -150,6 +155,7 @@ class LinearSystem {
   /// maps nearest to nothing, by inverse iteration with a small shift; any one where the whole matrix is zero. -1 when
   /// that fails.
   int weakest_dof() const {
+    InterruptionCheck::run();
     Eigen::Index const size = matrix_.rows();
     if (size == 0 || !matrix_.coeffs().allFinite()) return -1;
     double const largest = matrix_.nonZeros() > 0 ? matrix_.coeffs().abs().maxCoeff() : 0.0;
