@@ -63,11 +63,12 @@ def with_links(text, source, page, api):
 
 
 def with_tabs(text):
-    """Text in which blocks of C++ and of Python, each right below the one before, are tabs."""
-    block = r"^```(cpp|python)\n(?:(?!```).*\n)*```\n"
+    """Text in which blocks of code in several languages, each right below the one before, are tabs."""
+    titles = {"sh": "Command line", "cpp": "C++", "python": "Python"}
+    block = rf"^```({'|'.join(titles)})\n(?:(?!```).*\n)*```\n"
 
     def tabs(match):
-        return "\n".join(f'=== "{dict(cpp="C++", python="Python")[one[1]]}"\n\n{textwrap.indent(one[0], "    ")}'
+        return "\n".join(f'=== "{titles[one[1]]}"\n\n{textwrap.indent(one[0], "    ")}'
                          for one in re.finditer(block, match[0], re.MULTILINE))
 
     return re.sub(f"(?:{block}){{2,}}", tabs, text, flags=re.MULTILINE)
