@@ -604,7 +604,7 @@ of_all, of_one, of_compiled = (min(seconds(make) for _ in range(3)) for make in 
     lambda rest: All(2, **rest), lambda rest: One(2, **rest), lambda rest: scarp.linear_elastic(young=young, poisson=poisson, **rest)))
 print(f"2000 points: a material in Python takes {of_all / of_compiled:.2f} times the time of C++ on arrays, {of_one / of_compiled:.2f} times point by point")
 
-for part in (scarp.figures, scarp.meshes, scarp.problem):
+for part in (scarp.figures, scarp.meshes, scarp.model):
     report = doctest.testmod(part, extraglobs={"scarp": scarp})
     expect(report.failed == 0 and report.attempted > 0, f"examples of {part.__name__}: {report}")
 checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", os.devnull, "-p", "scarp"],

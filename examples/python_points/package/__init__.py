@@ -21,7 +21,8 @@ from .materials import (MaterialPoints, discs, ellipses, ground_of_discs, ground
                         umat)
 from .meshes import Mesh, box_mesh, read_gmsh
 from .micro_simulation import MicroSimulation
-from .problem import Analysis, Collapse, Model, NotConverged, PythonMaterial, Run, SafetyFactor, load_analysis, reduce_strength
+from .model import Model, PythonMaterial
+from .problem import Analysis, Collapse, NotConverged, Run, SafetyFactor, load_analysis, reduce_strength
 from .program_options import options
 from .study import study
 

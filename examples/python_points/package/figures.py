@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from . import _points
 from .meshes import plane_axes
-from .problem import Analysis, Floats
+from .model import Floats
+from .problem import Analysis
 
 
 def plot_packing(picture: Optional[Mapping[str, npt.NDArray[np.float64]]], axes: Any = None) -> Any:

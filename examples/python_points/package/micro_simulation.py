@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _points
 from .materials import MaterialPoints
-from .problem import Floats
+from .model import Floats
 
 
 class MicroSimulation:
