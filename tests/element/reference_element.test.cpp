@@ -339,30 +339,3 @@ TEST_CASE("Gmsh's local nodes lie between the corners that Gmsh's manual gives t
   check(scarp::Tet10::mid_sides(), scarp::Tet10::gmsh_order, tetrahedron, 4);
   check(scarp::Hex20::mid_sides(), scarp::Hex20::gmsh_order, hexahedron, 8);
 }
-
-TEST_CASE("a moved and stretched triangle has the area and the gradients of the plane through its corners") {
-  scarp::Corners<scarp::Tri3, 2> rows;
-  rows << 1.0, 2.0, 4.0, 2.5, 2.0, 6.0;
-  auto const shape = scarp::spatial_shape<scarp::Tri3>(rows, scarp::Tri3::quadrature()[0]);
-  // Analytic: half the cross product of the edges (3, 0.5) and (1, 4).
-  CHECK(shape.volume == samples::Approx((3.0 * 4.0 - 0.5 * 1.0) / 2.0).epsilon(1e-15));
-  scarp::Vector<2> const slope(0.7, -1.3);
-  scarp::Vector<3> const heights = rows * slope;  // of the plane through the corners
-  CHECK((shape.gradients.transpose() * heights - slope).norm() < 1e-14);
-}
-
-TEST_CASE("the side of an element has its length or area in space") {
-  scarp::Corners<scarp::Line2, 2> line;
-  line << 1.0, 1.0, 4.0, 5.0;
-  CHECK(scarp::measure<scarp::Line2, 2>(line, scarp::Vector<1>(0.5)) == samples::Approx(5.0));  // analytic: 3-4-5
-  scarp::Corners<scarp::Tri3, 3> side;
-  side << 0.0, 0.0, 1.0, 2.0, 0.0, 1.0, 0.0, 3.0, 1.0;
-  CHECK(0.5 * scarp::measure<scarp::Tri3, 3>(side, scarp::Vector<2>::Zero()) ==
-        samples::Approx(3.0));  // analytic: 2 * 3 / 2
-}
-
-TEST_CASE("an element turned inside out has a negative measure") {
-  scarp::Corners<scarp::Tri3, 2> rows;
-  rows << 0.0, 0.0, 0.0, 1.0, 1.0, 0.0;
-  CHECK(scarp::measure<scarp::Tri3, 2>(rows, scarp::Vector<2>::Zero()) == -1.0);
-}

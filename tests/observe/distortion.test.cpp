@@ -4,15 +4,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/quad8.hpp"
-#include "scarp/element/tet4.hpp"
-#include "scarp/element/tri3.hpp"
 #include "scarp/element/tri6.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -22,8 +19,6 @@
 namespace {
 
 using samples::Approx;
-using scarp::Corners;
-using scarp::mean_ratio;
 using scarp::Vector;
 
 auto unit_squares() {
@@ -47,23 +42,6 @@ void shear(Grid& grid, double by) {
 }
 
 }  // namespace
-
-TEST_CASE("the mean ratio is that of closed forms") {
-  // Analytic: regular cells have 1 whatever their size; a half square |A|^2 = 8 / 3, det A = 2 / sqrt(3).
-  Corners<scarp::Tri3, 2> triangle;
-  triangle << 0.0, 0.0, 3.0, 0.0, 1.5, 1.5 * std::sqrt(3.0);
-  CHECK(mean_ratio<scarp::Tri3>(triangle, Vector<2>(0.2, 0.3)) == Approx(1.0).epsilon(1e-14));
-  triangle << 0.0, 0.0, 1.0, 0.0, 0.0, 1.0;
-  CHECK(mean_ratio<scarp::Tri3>(triangle, Vector<2>(0.2, 0.3)) == Approx(std::sqrt(3.0) / 2.0).epsilon(1e-14));
-  triangle << 0.0, 0.0, 0.0, 1.0, 1.0, 0.0;
-  CHECK(mean_ratio<scarp::Tri3>(triangle, Vector<2>(0.2, 0.3)) == 0.0);  // inside out
-  Corners<scarp::Quad4, 2> square;
-  square << 0.0, 0.0, 2.0, 0.0, 2.0, 2.0, 0.0, 2.0;
-  CHECK(mean_ratio<scarp::Quad4>(square, Vector<2>(0.1, 0.7)) == Approx(1.0).epsilon(1e-14));
-  Corners<scarp::Tet4, 3> tetrahedron;
-  tetrahedron << 1, 1, 1, 1, -1, -1, -1, -1, 1, -1, 1, -1;
-  CHECK(mean_ratio<scarp::Tet4>(tetrahedron, Vector<3>(0.2, 0.2, 0.2)) == Approx(1.0).epsilon(1e-14));
-}
 
 TEST_CASE_TEMPLATE("elements of a regular mesh have the mean ratio of their linear ones", Element, scarp::Tri6,
                    scarp::Quad8) {

@@ -79,25 +79,3 @@ TEST_CASE("the least limit of the process's groups counts, of both versions of c
   write("memory/memory.stat", "inactive_file 1\ntotal_inactive_file 100\n");
   CHECK(left() == 4100.0);
 }
-
-TEST_CASE("the least quota of processors of the process's groups counts, of both versions of control groups") {
-  samples::ScratchFolder const folder;
-  auto const write = [&](std::string const& name, std::string const& text) {
-    std::filesystem::create_directories((folder / name).parent_path());
-    std::ofstream(folder / name) << text;
-  };
-  auto const left = [&] {
-    return scarp::detail::group_processors((folder / "cgroup").string(), folder.path().string());
-  };
-  write("cgroup", "0::/pod/box\n7:cpuset:/x\n3:cpu,cpuacct:/slice\n");
-  CHECK(std::isinf(left()));
-  write("pod/box/cpu.max", "max 100000\n");
-  CHECK(std::isinf(left()));
-  write("pod/cpu.max", "350000 100000\n");
-  CHECK(left() == 3.5);
-  write("cpu/slice/cpu.cfs_quota_us", "-1\n");
-  write("cpu/slice/cpu.cfs_period_us", "50000\n");
-  CHECK(left() == 3.5);
-  write("cpu/slice/cpu.cfs_quota_us", "75000\n");
-  CHECK(left() == 1.5);
-}
