@@ -31,8 +31,7 @@ namespace scarp {
 /// if (report.verdict.acceptable()) points.commit();  // else: another increment, smaller perhaps
 /// \endcode
 /// Gradients are those of the displacement since the last commit by the positions at that time. Where points are shared
-/// out among processes (see Executor), each evaluates its own and all know all responses. Types of providers are
-/// hidden: what a state holds is read by name (`quantities`), or by its type (`state`).
+/// out among processes (see Executor), each evaluates its own and all know all responses. States have `quantities`.
 template <int Dim>
 class SCARP_EXPORT MaterialPoints {
  public:
@@ -140,8 +139,7 @@ class SCARP_EXPORT MaterialPoints {
   /// \throws InputError for states that name no members
   std::string pack(std::span<int const> points) const;
   std::string pack(int point) const { return pack(std::span(&point, 1)); }  ///< Bits of one point's committed state.
-  /// Other committed states for points, between load steps, by the bits of as many points of the same providers; points
-  /// share again what those shared.
+  /// Other committed states for points, between load steps, by bits of the same providers; shared parts stay so.
   /// \throws InputError for other bits, and for points that are named twice, without any change
   void unpack(std::span<int const> points, std::string_view bits);
   void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }  ///< Of one point.
