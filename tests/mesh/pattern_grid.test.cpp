@@ -85,6 +85,24 @@ TEST_CASE("the largest jitter turns no element over, whatever the seed") {
   }
 }
 
+TEST_CASE("nodes move by up to the share of the distance of their nearest neighbour, on whichever side it is") {
+  std::vector<double> const even{0.0, 8.0, 16.0}, near_first{0.0, 1.0, 9.0}, near_last{0.0, 8.0, 9.0};
+  using Lines = std::pair<std::vector<double>, std::vector<double>>;
+  for (auto const& [columns, rows] :
+       {Lines{near_first, even}, Lines{near_last, even}, Lines{even, near_first}, Lines{even, near_last}}) {
+    double farthest = 0.0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      std::vector<scarp::Vector<2>> nodes;
+      auto const numbers = scarp::add_grid_nodes(nodes, columns, rows);
+      scarp::jitter_grid(nodes, numbers, 0.3, seed);
+      scarp::Vector<2> const middle(columns[1], rows[1]);
+      farthest = std::max(farthest, (nodes[static_cast<std::size_t>(numbers(1, 1))] - middle).norm());
+    }
+    CHECK(farthest <= 0.3);
+    CHECK(farthest > 0.27);
+  }
+}
+
 TEST_CASE("the centre of a crossed cell is the mean of its corners, moved or not") {
   auto const mesh = grid<scarp::Tri3>(Pattern::crossed, 0.3, 4);
   for (std::size_t cell = 0; cell < 6; ++cell) {

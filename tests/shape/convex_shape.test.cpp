@@ -18,12 +18,13 @@ using samples::Approx;
 using scarp::Ellipse;
 using scarp::Point;
 
-/// An ellipse by its support function.
+/// An ellipse by its support function, as a quotient.
 struct Oblong : scarp::ConvexShape<Oblong, 2> {
   template <class T>
   static T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
     T const x = size[0] * cosine, y = size[1] * sine;
-    return sqrt(x * x + y * y);
+    T const square = x * x + y * y;
+    return square / sqrt(square);
   }
 };
 
@@ -38,8 +39,8 @@ struct Triangle : scarp::ConvexShape<Triangle, 2> {
 /// A circle about another point than the centre.
 struct Egg : scarp::ConvexShape<Egg, 2> {
   template <class T>
-  static T support(std::array<T, 2> const& size, T const& cosine, T const&) {
-    return size[0] + size[1] * cosine;
+  static T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
+    return size[0] + size[1] * (0.6 * cosine + 0.8 * sine);
   }
 };
 
