@@ -8,6 +8,7 @@
 
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/facet_chain.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/element/line.hpp"
@@ -62,6 +63,7 @@ class FollowingPressure {
   }
 
   static void commit(std::vector<Vector<2>> const&, Eigen::VectorXd const&) {}
+  SCARP_MEMBERS_EXCEPT((facets_, thickness_, coupling_))  // nothing evolves
 
  private:
   template <class Visit>
