@@ -28,11 +28,12 @@ void declare_specimen(CLI::App& app, Choice& choice) {
       ->check(CLI::Range(1, 2))
       ->needs(mesh)
       ->capture_default_str();
-  for (auto* const own :
-       {app.add_option("--width", choice.width, "of a specimen without --mesh [m]")->check(length),
-        app.add_option("--height", choice.height, "[m]")->check(length),
-        app.add_option("--columns", choice.columns, "squares of four triangles across")->check(CLI::Range(1, 1000)),
-        app.add_option("--rows", choice.rows, "and up")->check(CLI::Range(1, 1000))})
+  for (auto* const own : {app.add_option("--width", choice.width, "of a specimen without --mesh [m]")->check(length),
+                          app.add_option("--height", choice.height, "[m]")->check(length),
+                          app.add_option("--columns", choice.columns,
+                                         "squares across, of four triangles each; of one Quad8 with --undrained")
+                              ->check(CLI::Range(1, 1000)),
+                          app.add_option("--rows", choice.rows, "and up")->check(CLI::Range(1, 1000))})
     own->excludes(mesh)->capture_default_str();
 }
 
@@ -70,7 +71,7 @@ void declare_grains(CLI::App& app, biaxial_specimen::Grains& grains) {
 }
 
 void declare_test(CLI::App& app, Choice& choice) {
-  app.add_option("--confining", choice.confining, "lateral pressure [Pa]")
+  app.add_option("--confining", choice.confining, "lateral pressure [Pa], with --undrained that of grains and water")
       ->check(examples::number_from(0.0, false, 1e12))
       ->capture_default_str();
   app.add_option("--axial-strain-step", choice.axial_strain_step, "of one row, relative to the first height")
@@ -91,6 +92,18 @@ void declare_test(CLI::App& app, Choice& choice) {
   app.add_option("--threads", choice.threads, "0 uses all")->check(CLI::Range(0, 1024));
 }
 
+void declare_water(CLI::App& app, Choice& choice) {
+  auto* const undrained = app.add_flag("--undrained", choice.undrained, "pores are full of water that nothing drains");
+  auto const of_water = [&](char const* option, double& value, char const* what, CLI::Validator const& range) {
+    app.add_option(option, value, what)->check(range)->needs(undrained)->capture_default_str();
+  };
+  of_water("--pore-pressure", choice.pore_pressure, "of the water at the start, over that of the air [Pa]",
+           examples::number_from(1.0, true, 1e12));
+  of_water("--grain-diameter", choice.grain_diameter, "of the permeability by Kozeny and Carman [m]",
+           examples::number_from(1e-9, true, 1.0));
+  of_water("--rate", choice.rate, "of the top platen [m/s]", examples::number_from(1e-12, true, 1e3));
+}
+
 void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
   auto const folder = [](std::string const& given) { return examples::folder_problem(given); };
   auto* const all = examples::declare_output(app, output, "folder of all results")->capture_default_str();
@@ -103,13 +116,26 @@ void declare_results(CLI::App& app, Choice& choice, examples::Output& output) {
       ->capture_default_str();
 }
 
-int run_mesh(Choice choice) {
-  examples::reject_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
-  if (choice.mesh.empty()) return run<scarp::Tri3>(choice);
-  scarp::GmshFile const file(choice.mesh, {.highest_order = choice.mesh_order});
-  examples::print_notes(file.notes());
-  choice.mesh_file = &file;
-  switch (file.element_type()) {
+#ifdef BIAXIAL_SPECIMEN_WATER
+constexpr bool has_water = true;
+
+int run_own_mesh(Choice const& choice) { return biaxial_specimen::run_undrained(choice); }
+
+int run_file(Choice const& choice, int element) {
+  if (element != scarp::Quad8::gmsh_type)
+    scarp::reject(
+        "'{}' holds no quadrilaterals of eight nodes (an undrained specimen has these): mesh it with them, or leave "
+        "out --mesh",
+        choice.mesh);
+  return run_own_mesh(choice);
+}
+#else
+constexpr bool has_water = false;
+
+int run_own_mesh(Choice const& choice) { return run<scarp::Tri3>(choice); }
+
+int run_file(Choice const& choice, int element) {
+  switch (element) {
 #ifdef BIAXIAL_SPECIMEN_EVERY_ELEMENT
     case scarp::Tri6::gmsh_type: return run<scarp::Tri6>(choice);
     case scarp::Quad4::gmsh_type: return run<scarp::Quad4>(choice);
@@ -120,8 +146,33 @@ int run_mesh(Choice choice) {
                     choice.mesh);
 #endif
     case scarp::Quad8::gmsh_type: return run<scarp::Quad8>(choice);
-    default: return run<scarp::Tri3>(choice);  // rejects other elements with a message
+    default: return run_own_mesh(choice);  // rejects other elements with a message
   }
+}
+#endif
+
+/// \throws InputError for a program of the other kind, and water that carries everything
+void check_water(Choice const& choice) {
+  if (has_water && !choice.undrained)
+    scarp::reject("biaxial_specimen_water is started without --undrained: give it, or start biaxial_specimen");
+  if (!has_water && choice.undrained)
+    scarp::reject(
+        "--undrained is given to a program without water: start it by ./examples/run, which builds "
+        "biaxial_specimen_water");
+  if (choice.undrained && !(choice.pore_pressure < choice.confining))
+    scarp::reject(
+        "--pore-pressure is {} Pa with --confining {} Pa (the grains would carry nothing): give a lower pore pressure",
+        choice.pore_pressure, choice.confining);
+}
+
+int run_mesh(Choice choice) {
+  check_water(choice);
+  examples::reject_overwriting(choice.table, {choice.mesh, choice.grains.particles, choice.grains.contacts});
+  if (choice.mesh.empty()) return run_own_mesh(choice);
+  scarp::GmshFile const file(choice.mesh, {.highest_order = choice.mesh_order});
+  examples::print_notes(file.notes());
+  choice.mesh_file = &file;
+  return run_file(choice, file.element_type());
 }
 
 int run_test(Choice choice, examples::Output const& output, CLI::App const& app) {
@@ -149,6 +200,7 @@ int main(int argc, char** argv) {
   declare_specimen(app, choice);
   declare_grains(app, choice.grains);
   declare_test(app, choice);
+  declare_water(app, choice);
   declare_results(app, choice, output);
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {

@@ -39,7 +39,11 @@ struct Choice {
   int columns = 5;
   int rows = 10;
   Grains grains{};
-  double confining = 200e3;         ///< lateral pressure [Pa]
+  double confining = 200e3;         ///< lateral pressure, total [Pa]
+  bool undrained = false;           ///< pores full of water that nothing drains
+  double pore_pressure = 100e3;     ///< of that water at the start, over that of the air [Pa]
+  double grain_diameter = 1e-3;     ///< of its permeability [m]
+  double rate = 1e-4;               ///< of the top platen [m/s]
   double axial_strain_step = 1e-3;  ///< of one row of the table, relative to the first height
   int steps = 35;
   double residual = 1e-3;  ///< unbalanced forces over reactions
@@ -51,6 +55,9 @@ struct Choice {
   std::function<void()> begin{};  ///< called before anything is written
   int frames = 20;
   std::vector<std::string> budget{};  ///< bounds of the error budget, part=bound; the others are the usual ones
+
+  /// What the grains carry of the lateral pressure at the start [Pa].
+  double effective() const { return undrained ? confining - pore_pressure : confining; }
 };
 
 }  // namespace biaxial_specimen

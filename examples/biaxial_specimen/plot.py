@@ -23,9 +23,9 @@ def read_steps(folder):
     return [(strain, figures.read_vtu(path), path) for strain, path in steps]
 
 
-def draw_cells(axes, grid, values, colours, most):
+def draw_cells(axes, grid, values, colours, most, least=0.0):
     """In the deformed configuration [mm]."""
-    cells = PolyCollection(1e3 * grid.points[grid.cells], array=values, cmap=colours, norm=Normalize(0.0, most),
+    cells = PolyCollection(1e3 * grid.points[grid.cells], array=values, cmap=colours, norm=Normalize(least, most),
                            edgecolor="#00000040", linewidth=0.15)
     axes.add_collection(cells)
     axes.autoscale_view()
@@ -62,4 +62,48 @@ def curve(folder):
     return fig
 
 
-figures.draw_all({"band": band, "curve": curve})
+def undrained(folder):
+    """Strength and excess pressure over the strain, and the paths of effective and total stress."""
+    table = figures.read_csv(folder / "table.csv", ["axial_strain", "mean_sxx", "mean_syy", "mean_excess_pressure"])
+    strain = 100.0 * table["axial_strain"]
+    deviator = 1e-3 * (table["mean_sxx"] - table["mean_syy"])
+    mean = -5e-4 * (table["mean_sxx"] + table["mean_syy"])
+    excess = 1e-3 * table["mean_excess_pressure"]
+    fig, (course, path) = plt.subplots(1, 2, figsize=(7.0, 2.8))
+    course.plot(strain, deviator, color=VERMILION, label="q, axial less lateral stress")
+    course.plot(strain, excess, color=BLUE, label="mean excess pore pressure")
+    course.set(xlabel="axial strain [%]", ylabel="stress [kPa]")
+    path.plot(mean, deviator, color=VERMILION, label="effective")
+    path.plot(mean + excess, deviator, color=GREY, label="total, less the water at rest")
+    path.set(xlabel="mean compressive stress [kPa]", ylabel="q [kPa]", xlim=(0.0, None), ylim=(0.0, None))
+    for axes in (course, path):
+        axes.legend()
+    return fig
+
+
+def excess_pressure(folder):
+    """Strain and excess pressure of the elements in the last picture."""
+    axial, path = figures.read_pvd(folder / "fields.pvd")[-1]
+    grid = figures.read_vtu(path)
+    strain = 100.0 * figures.field(grid.at_cells, "deviatoric_strain", path)
+    pressure = 1e-3 * figures.field(grid.at_nodes, "excess_pore_pressure", path)[grid.cells].mean(axis=1)
+    fig, panels = plt.subplots(1, 2, figsize=(5.6, 4.4), sharex=True, sharey=True)
+    drawn = (draw_cells(panels[0], grid, strain, "magma_r", max(np.percentile(strain, 99.0), 1e-9)),
+             draw_cells(panels[1], grid, pressure, "viridis", pressure.max(), pressure.min()))
+    for axes, cells, label in zip(panels, drawn, ("deviatoric strain [%]", "excess pore pressure [kPa]")):
+        axes.set_title(f"axial strain {100.0 * axial:.1f} %")
+        fig.colorbar(cells, ax=axes, label=label, shrink=0.7)
+    panels[0].set_ylabel("y [mm]")
+    return fig
+
+
+def figures_of(folder):
+    """Water has figures of its own."""
+    chosen = {"band": band, "curve": curve}
+    table = folder / "table.csv"
+    if table.is_file() and "mean_excess_pressure" in table.read_text().partition("\n")[0]:
+        chosen |= {"undrained": undrained, "excess_pressure": excess_pressure}
+    return chosen
+
+
+figures.draw_all(figures_of(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))

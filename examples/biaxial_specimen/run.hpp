@@ -12,6 +12,10 @@ namespace biaxial_specimen {
 template <class Element>
 int run(Choice const& choice);
 
+/// Tests a specimen whose pores are full of water, of Quad8, see water/undrained.cpp.
+/// \return exit code of the program
+int run_undrained(Choice const& choice);
+
 extern template int run<scarp::Tri3>(Choice const&);
 extern template int run<scarp::Tri6>(Choice const&);
 extern template int run<scarp::Quad4>(Choice const&);

@@ -23,24 +23,50 @@
 
 namespace biaxial_specimen {
 
-/// A body between smooth platens under lateral pressure. The load factor is the axial strain relative to the first
-/// height; the middle of the bottom is held.
-template <class Element>
-class Specimen {
- public:
+/// Pores without water.
+template <class ElementType>
+struct Dry {
+  using Element = ElementType;
   using Grid = scarp::Discretisation<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
+  static constexpr bool have_water = false;
+
+  /// A specimen without a file.
+  static scarp::Mesh<Element> own_mesh(Choice const& choice) requires std::is_same_v<Element, scarp::Tri3> {
+    return crossed_rectangle(choice.width, choice.height, choice.columns, choice.rows);
+  }
+  static Lateral attached(Choice const&, Grid const&, scarp::MaterialPoints<2> const&, Lateral lateral) {
+    return lateral;
+  }
+  /// Adds the committed forces [N] of what is attached.
+  template <class Problem>
+  static scarp::Verdict add_attached(Problem const& problem, Eigen::VectorXd& forces) {
+    auto const& grid = problem.discretisation();
+    return problem.template attached<Lateral>().add_forces(grid.positions(), Eigen::VectorXd::Zero(grid.dof_count()),
+                                                           forces);
+  }
+};
+
+/// A body between smooth platens under lateral pressure. The load factor is the axial strain relative to the first
+/// height; the middle of the bottom is held.
+/// \tparam Pores `Dry`, or `Undrained` (water/undrained.cpp)
+template <class Pores>
+class Specimen {
+ public:
+  using Element = typename Pores::Element;
+  using Grid = typename Pores::Grid;
   using Problem = scarp::EquilibriumProblem<Grid>;
 
   /// \throws InputError, PreparationError
   Specimen(Choice const& choice, scarp::Mesh<Element> mesh, scarp::ThreadExecutor& executor)
       : sides_(find_sides(mesh)),
+        at_rest_(choice.confining - choice.effective()),
         problem_(make(choice, Grid(std::move(mesh), choice.grains.sand.thickness), executor)) {}
 
   Problem& problem() { return problem_; }
   Sides<Element> const& sides() const { return sides_; }
 
-  /// Volume average of the stress [Pa], tension positive.
+  /// Volume average of the grains' stress [Pa], tension positive.
   scarp::VoigtStress<2> mean_stress() const {
     auto const& grid = problem_.discretisation();
     auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
@@ -53,14 +79,13 @@ class Specimen {
     return sum / volume;
   }
 
-  /// Force [N] of the top platen, positive when it presses.
+  /// Force [N] of the top platen, on grains and water, positive when it presses.
   double top_force() const {
     auto const& grid = problem_.discretisation();
-    Eigen::VectorXd const still = Eigen::VectorXd::Zero(grid.dof_count());
     Eigen::VectorXd forces;
-    grid.internal_force(still, problem_.committed_stresses(), forces);
-    auto const verdict = problem_.template attached<Lateral>().add_forces(grid.positions(), still, forces);
-    double sum = verdict.acceptable() ? 0.0 : std::nan("");
+    grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.committed_stresses(), forces);
+    auto const verdict = Pores::add_attached(problem_, forces);
+    double sum = verdict.acceptable() ? at_rest_ * top_area() : std::nan("");
     for (int const node : sides_.top) sum -= forces(2 * node + 1);
     return sum;
   }
@@ -73,13 +98,25 @@ class Specimen {
     for (int const node : sides_.top) constraints.move(node, 1, -sides_.height);
     std::vector<scarp::Site<2>> sites;
     for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, sides_.top_level));
-    scarp::MaterialPoints<2> points(sand(choice.grains, choice.confining, grid.point_count(), executor), sites);
-    scarp::LoadHistory loads(Eigen::VectorXd::Zero(grid.dof_count()));
-    Lateral lateral(sides_.lateral, choice.confining, choice.grains.sand.thickness);
-    return {std::move(grid), std::move(points), std::move(constraints), std::move(loads), executor, std::move(lateral)};
+    scarp::MaterialPoints<2> points(sand(choice.grains, choice.effective(), grid.point_count(), executor), sites);
+    // Water at rest pushes the sides from within as far as it pushes them from without, and platens alike: it does no
+    // work, and what is left of the lateral pressure acts on grains and excess pressures.
+    typename Pores::Lateral lateral(sides_.lateral, choice.effective(), choice.grains.sand.thickness);
+    auto attached = Pores::attached(choice, grid, points, std::move(lateral));
+    constraints.add_dofs(attached.extra_dofs());
+    scarp::LoadHistory loads(Eigen::VectorXd::Zero(constraints.dof_count()));
+    return {std::move(grid),  std::move(points), std::move(constraints),
+            std::move(loads), executor,          std::move(attached)};
+  }
+  double top_area() const {
+    auto const& places = problem_.discretisation().positions();
+    auto const x = [&](int node) { return places[static_cast<std::size_t>(node)].x(); };
+    auto const [left, right] = std::ranges::minmax(sides_.top, {}, x);
+    return (x(right) - x(left)) * problem_.discretisation().thickness();
   }
 
   Sides<Element> sides_;
+  double at_rest_;  ///< pressure of the water [Pa]
   Problem problem_;
 };
 
@@ -100,11 +137,13 @@ struct Watch : scarp::NeverStops {
   }
 };
 
-/// Columns of the table. Stresses [Pa] are tension positive, axial strain (shortening over the first height) and top
-/// force [N] positive in compression; iterations count all attempts at the row.
-inline std::vector<std::string> const& columns() {
-  static std::vector<std::string> const names{"step",     "axial_strain", "top_force",  "mean_sxx",
-                                              "mean_syy", "mean_sxy",     "iterations", "residual"};
+/// Columns of the table. Stresses of the grains [Pa] are tension positive, axial strain (shortening over the first
+/// height), top force [N] and the water's excess pressure [Pa] positive in compression; iterations count all attempts at
+/// the row.
+inline std::vector<std::string> columns(bool have_water) {
+  std::vector<std::string> names{"step",     "axial_strain", "top_force",  "mean_sxx",
+                                 "mean_syy", "mean_sxy",     "iterations", "residual"};
+  if (have_water) names.emplace_back("mean_excess_pressure");
   return names;
 }
 
@@ -116,8 +155,8 @@ inline void report_budget(Choice const& choice, scarp::BudgetParts const& parts)
 }
 
 /// \return what the run of the last row ended with
-template <class Element, class Budget>
-scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Budget& budget) {
+template <class Pores, class Budget>
+scarp::RunReport compress(Choice const& choice, Specimen<Pores>& specimen, Budget& budget) {
   using Solver = scarp::QuasiNewton<>;
   auto& problem = specimen.problem();
   Solver const solver{.tolerance = choice.residual, .max_iterations = choice.iterations};
@@ -131,11 +170,18 @@ scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Bud
     watch.series.emplace(
         choice.fields, scarp::LoadSchedule{.to = choice.steps * step, .count = std::min(choice.frames, choice.steps)});
   }
-  scarp::CsvLog log(choice.table, columns());
+  scarp::CsvLog log(choice.table, columns(Pores::have_water));
   auto const write = [&](int row) {
     auto const mean = specimen.mean_stress();
     double const force = specimen.top_force();
-    log.add(row, row * step, force, mean(0), mean(1), mean(2), watch.iterations, watch.residual);
+    auto const add = [&](auto... of_water) {
+      log.add(row, row * step, force, mean(0), mean(1), mean(2), watch.iterations, watch.residual, of_water...);
+    };
+    if constexpr (Pores::have_water) {
+      add(Pores::mean_excess_pressure(problem));
+    } else {
+      add();
+    }
     examples::print(stderr, "step {:3}  axial strain {:.5f}  top force {:.6g} N  iterations {:3}  residual {:.2e}\n",
                     row, row * step, force, watch.iterations, watch.residual);
     watch.iterations = 0;
@@ -143,7 +189,7 @@ scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Bud
   auto report = stepping.settle(solver, problem, 0.0, watch);
   if (!report.verdict.acceptable()) return report;
   write(0);
-  typename Solver::template Session<typename Specimen<Element>::Problem> session(solver, problem);
+  typename Solver::template Session<typename Specimen<Pores>::Problem> session(solver, problem);
   for (int row = 1; row <= choice.steps; ++row) {
     report = stepping.advance(session, problem, (row - 1) * step, row * step, watch);
     if (!report.verdict.acceptable()) return report;
@@ -152,25 +198,22 @@ scarp::RunReport compress(Choice const& choice, Specimen<Element>& specimen, Bud
   return report;
 }
 
-template <class Element>
-scarp::Mesh<Element> make_mesh(Choice const& choice) {
-  if constexpr (std::is_same_v<Element, scarp::Tri3>) {
-    if (choice.mesh.empty()) {
-      return crossed_rectangle(choice.width, choice.height, choice.columns, choice.rows);
-    }
-  }
-  return choice.mesh_file->mesh<Element>();
+template <class Pores>
+scarp::Mesh<typename Pores::Element> make_mesh(Choice const& choice) {
+  if constexpr (requires { Pores::own_mesh(choice); })
+    if (choice.mesh.empty()) return Pores::own_mesh(choice);
+  return choice.mesh_file->mesh<typename Pores::Element>();
 }
 
-template <class Element>
-int run(Choice const& choice) {
+template <class Pores>
+int run_with(Choice const& choice) {
   scarp::ThreadExecutor executor(choice.threads);
-  Specimen<Element> specimen(choice, make_mesh<Element>(choice), executor);
+  Specimen<Pores> specimen(choice, make_mesh<Pores>(choice), executor);
   examples::print(stderr, "{:.6g} m x {:.6g} m, {} elements, {} packings, {} threads\n", specimen.sides().width,
                   specimen.sides().height, specimen.problem().discretisation().mesh().elements.size(),
                   specimen.problem().points().size(), executor.threads());
   scarp::ErrorBudget budget(specimen.problem(), examples::error_bounds(choice.budget),
-                            {.pressure_floor = choice.confining / 100.0});
+                            {.pressure_floor = choice.effective() / 100.0});
   auto const report = compress(choice, specimen, budget);
   report_budget(choice, budget.parts());
   if (report.verdict.acceptable()) return 0;
@@ -180,6 +223,11 @@ int run(Choice const& choice) {
       "are in '{}'\n",
       report.load, name(report.verdict.reason), name(report.last_failure), report.worst_point, choice.table);
   return 3;
+}
+
+template <class Element>
+int run(Choice const& choice) {
+  return run_with<Dry<Element>>(choice);
 }
 
 }  // namespace biaxial_specimen

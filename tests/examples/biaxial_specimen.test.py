@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """`biaxial_specimen` with Yade's packing (tests/reference/yade) on the smallest mesh of every element that is built: they all
-agree with one another and with the packing alone, whatever the number of threads; bad input gets a message and a
-non-zero exit. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
+agree with one another and with the packing alone, dry and full of water, whatever the number of threads; bad input gets a
+message and a non-zero exit. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
 import math
 import os
@@ -20,6 +20,7 @@ COLUMNS = ["step", "axial_strain", "top_force", "mean_sxx", "mean_syy", "mean_sx
 CONFINING = 2e5  # [Pa], the packing's own
 WIDTH, HEIGHT, THICKNESS = 0.05, 0.1, 0.2  # [m]
 RESIDUAL = 1e-3
+WATER = "biaxial_specimen_water"
 STEPS = 3
 
 # Places in units of width and height; elements by the numbers of their nodes, Gmsh's type first.
@@ -108,6 +109,32 @@ def check_ellipses(folder):
         expect((folder / "fields" / "fields.pvd").read_text().count("<DataSet") == 2, "not two pictures of two rows")
 
 
+def check_undrained(folder):
+    """Packings that are alike everywhere keep their volume, as the packing alone on its undrained path."""
+    pore = 1e5
+    code, said = run(WATER, "--undrained", "--mesh", "Quad8.msh", *PACKING, "--steps", STEPS, "--residual", RESIDUAL,
+                     "--confining", CONFINING + pore, "--pore-pressure", pore, "--out", "undrained.csv", "--fields", "wet", folder=folder)
+    expect(code == 0, f"undrained: ended with {code}\n{said}")
+    if code != 0:
+        return
+    columns, rows = read(folder / "undrained.csv")
+    expect(columns == [*COLUMNS, "mean_excess_pressure"] and len(rows) == STEPS + 1, f"undrained: {len(rows)} rows of {columns}")
+    for row in rows:
+        lateral, axial = (row["mean_excess_pressure"] - row[stress] for stress in ("mean_sxx", "mean_syy"))
+        expect(abs(lateral - CONFINING) < 3.0 * RESIDUAL * CONFINING, f"total lateral stress: {row}")
+        area = WIDTH * THICKNESS / (1.0 - row["axial_strain"])
+        expect(abs(row["top_force"] / area - axial - pore) < 3.0 * RESIDUAL * CONFINING, f"force on grains and water: {row}")
+    expect("excess_pore_pressure" in (folder / "wet" / "fields" / "step_0000.vtu").read_text(), "pictures lack the pressure")
+    code, said = run("rve_lab", "replay", *PACKING, "--path", "undrained", "--strain", -math.log(1.0 - 1e-3 * STEPS),
+                     "--strain-step", "1e-5", "--out", "rve.csv", folder=folder)
+    expect(code == 0, f"the packing alone, undrained: ended with {code}\n{said}")
+    if code == 0:
+        alone = read(folder / "rve.csv")[1][-1]
+        for ours, theirs in (("mean_sxx", "sxx"), ("mean_syy", "syy")):
+            difference = abs(rows[-1][ours] - alone[theirs])
+            expect(difference < 0.02 * CONFINING, f"undrained {ours} {rows[-1]}, alone {alone}")
+
+
 def check_threads(folder):
     tables = []
     for threads in (1, 2):
@@ -142,11 +169,18 @@ def check_refusals(folder):
             ("--width", *PACKING, "--width", "1e-9"),
             ("--axial-strain-step", *tri3, *PACKING, "--axial-strain-step", "1e-300"),
             ("--steps", *tri3, *PACKING, "--steps", "0"),
+            ("./examples/run, which builds biaxial_specimen_water", *tri3, *PACKING, "--undrained"),
+            ("--undrained", *tri3, *PACKING, "--pore-pressure", "1e5"),
+            ("biaxial_specimen_water is started without", WATER, *PACKING),
+            ("the grains would carry nothing", WATER, *PACKING, "--undrained", "--pore-pressure", "2e5"),
+            ("quadrilaterals of eight nodes", WATER, *tri3, *PACKING, "--undrained"),
+            ("--rate", WATER, *PACKING, "--undrained", "--rate", "0"),
             ("an input", *tri3, *PACKING, "--out", "Tri3.msh")):
+        program = arguments.pop(0) if arguments[0] == WATER else "biaxial_specimen"
         before = sorted(path.name for path in folder.iterdir())
         if "--out" not in arguments:
             arguments += ["--out", "refused.csv"]
-        code, said = run("biaxial_specimen", *arguments, folder=folder)
+        code, said = run(program, *arguments, folder=folder)
         expect(code not in (0, 3) and named in said, f"{arguments}: ended with {code}\n{said}")
         expect(sorted(path.name for path in folder.iterdir()) == before, f"{arguments} left files behind")
 
@@ -158,6 +192,7 @@ with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)
     check_elements(scratch)
     check_ellipses(scratch)
+    check_undrained(scratch)
     check_threads(scratch)
     check_exhaustion(scratch)
     check_refusals(scratch)
