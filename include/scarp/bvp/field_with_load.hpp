@@ -11,8 +11,8 @@
 
 namespace scarp {
 
-/// A field over a mesh and a load that follows the nodes of the mesh, as the one attachment of a problem: pore water in a specimen
-/// below a `FollowingPressure`. All degrees of freedom are the field's.
+/// A field over a mesh and a load that follows the nodes of the mesh, as the one attachment of a problem: pore water in
+/// a specimen below a `FollowingPressure`. All degrees of freedom are the field's.
 /// \code
 /// FieldWithLoad both(grid, FollowingPressure<Line3>(sides, 100e3), water);
 /// auto problem = make_problem(grid, ..., both);

@@ -34,7 +34,7 @@ enum class Reason : std::uint8_t {
   singular_system,     ///< the linear system could not be factorised
   step_too_small,      ///< cutting the load step went below its smallest size
   interrupted,         ///< stopped from outside
-  too_few_steps  ///< one DEM step strains beyond its limit: the plan, or the most steps, are too few
+  too_few_steps        ///< one DEM step strains beyond its limit: the plan, or the most steps, are too few
 };
 
 /// A status and its reason.
