@@ -82,15 +82,17 @@ def undrained(folder):
 
 
 def excess_pressure(folder):
-    """Strain and excess pressure of the elements in the last picture."""
+    """Strain and excess pressure of the elements in the last picture. Within the specimen pressures differ little."""
     axial, path = figures.read_pvd(folder / "fields.pvd")[-1]
     grid = figures.read_vtu(path)
     strain = 100.0 * figures.field(grid.at_cells, "deviatoric_strain", path)
-    pressure = 1e-3 * figures.field(grid.at_nodes, "excess_pore_pressure", path)[grid.cells].mean(axis=1)
-    fig, panels = plt.subplots(1, 2, figsize=(5.6, 4.4), sharex=True, sharey=True)
+    pressure = figures.field(grid.at_nodes, "excess_pore_pressure", path)[grid.cells].mean(axis=1)
+    mean = pressure.mean()
+    fig, panels = plt.subplots(1, 2, figsize=(6.4, 4.2), sharex=True, sharey=True)
     drawn = (draw_cells(panels[0], grid, strain, "magma_r", max(np.percentile(strain, 99.0), 1e-9)),
-             draw_cells(panels[1], grid, pressure, "viridis", pressure.max(), pressure.min()))
-    for axes, cells, label in zip(panels, drawn, ("deviatoric strain [%]", "excess pore pressure [kPa]")):
+             draw_cells(panels[1], grid, pressure - mean, "viridis", pressure.max() - mean, pressure.min() - mean))
+    labels = "deviatoric strain [%]", f"excess pore pressure less its mean of {1e-3 * mean:.1f} kPa [Pa]"
+    for axes, cells, label in zip(panels, drawn, labels):
         axes.set_title(f"axial strain {100.0 * axial:.1f} %")
         fig.colorbar(cells, ax=axes, label=label, shrink=0.7)
     panels[0].set_ylabel("y [mm]")
