@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/field_with_load.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/interface.hpp"
+#include "scarp/bvp/pore_water.hpp"
 #include "scarp/bvp/standing_body.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
