@@ -21,8 +21,8 @@ struct Column {
   double load = 1.0;                                       ///< on the top [Pa]
   double modulus = 1e6;                                    ///< M, constrained, without Poisson's effect [Pa]
   double mobility = 1e-9;                                  ///< k/mu [m2/(Pa s)]
-  double first = 1e-6;                                     ///< T of the first step
-  int rows = 20;                                           ///< of elements, twice as wide as high
+  double first = 1e-4;                                     ///< T of the first step
+  int rows = 20;                                           ///< of elements, as wide as high
   int steps = 40;                                          ///< of each stage
   std::vector<double> stages{0.01, 0.1, 0.197, 0.5, 1.0};  ///< T at their ends
 
@@ -66,7 +66,7 @@ struct ColumnRun {
 template <class Element, class Motion = scarp::SmallStrain>
 ColumnRun consolidate(Column const& column) {
   using namespace scarp;
-  constexpr double width = 0.1;
+  double const width = 1.0 / column.rows;
   Discretisation<Element, Motion, DefaultIntegration<Element>> const grid(
       BoxMesh<Element>{.lengths = Vector<2>(width, 1.0), .cells = {1, column.rows}}.generate());
   Clock clock(column.first / column.consolidation());
