@@ -3,6 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/tet4.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scarp/dem/block/block_program.hpp"
 
+#include <cstddef>
 #include <limits>
 
 #include "block_samples.hpp"
@@ -21,6 +22,31 @@ scarp::Trouble trouble_of(Sample<PackingType> const& sample, Tensor<2> const& st
   blocks::Bytes committed = sample.state(sample.packing);
   blocks::Bytes trial = sample.respond(committed, strain, 50, 2);
   return sample.header(trial).trouble;
+}
+
+template <class PackingType>
+void check_renewal(typename PackingType::Law const& law, double bar, double shear = 0.0) {
+  Sample<PackingType> sample(blocks::pressed<PackingType>(law), law);
+  sample.packing.cell.row(0) += shear * sample.packing.cell.row(1).eval();
+  for (std::size_t i = 0; i < sample.packing.grain_count(); ++i)
+    sample.packing.position(i, 0) += shear * sample.packing.position(i, 1);
+  sample.size.pairs *= 2;
+  sample.packing.pairs.drift = std::numeric_limits<double>::infinity();
+  auto const strain = blocks::shear_step<PackingType::dim>(1e-5);
+  blocks::Bytes committed = sample.state(sample.packing);
+  blocks::Bytes trial = sample.respond(committed, strain, 1, 0);
+  auto const& header = sample.header(trial);
+  scarp::TimeStepper<PackingType> stepper;
+  scarp::StepObservation<PackingType::dim> seen;
+  REQUIRE(stepper.step(sample.packing, law, strain).acceptable());
+  REQUIRE(stepper.observe(sample.packing, law, seen).acceptable());
+  auto const moment = scarp::detail::as_tensor<PackingType::dim>(header.moment);
+  CHECK((moment / sample.packing.volume() + seen.stress).norm() <= 1e-9 * seen.stress.norm());
+  auto const cell = scarp::detail::as_tensor<PackingType::dim>(header.cell);
+  CHECK((cell - sample.packing.cell).norm() <= 1e-12 * cell.norm());
+  CHECK(header.lists == 1);
+  CHECK(static_cast<std::size_t>(header.pairs) == sample.packing.pairs.count());
+  CHECK(header.critical_step == samples::Approx(sample.packing.pairs.critical_step).epsilon(bar));
 }
 
 }  // namespace
@@ -49,6 +75,21 @@ TEST_CASE("a block in single precision takes the steps of the vector kernel") {
   check<scarp::Packing<scarp::Ellipse, scarp::LinearFrictional, float>>(samples::study_law(), 1e-5, 400);
 }
 
+TEST_CASE("a list that is made anew has the pairs, memory and critical step of the vector kernel") {
+  // Sheared by more than half, a cell is reduced and pairs get other names.
+  SUBCASE("sheared discs") { check_renewal<samples::Discs>(samples::study_law(), 1e-12, 0.7); }
+  SUBCASE("ellipses") { check_renewal<samples::Ellipses>(samples::study_law(), 1e-12); }
+  SUBCASE("ellipses with dashpots whose stiffness grows with the overlap") {
+    using Law = scarp::HertzMindlin<scarp::HertzRestitution>;
+    check_renewal<scarp::Packing<scarp::Ellipse, Law>>(
+        Law{.reduced_modulus = 4e9, .reduced_shear_modulus = 1e9, .friction = 0.5, .damping = {0.6}}, 1e-12);
+  }
+  SUBCASE("sheared spheres") {
+    // Both tangents are alike, where the cosine formula of a largest principal value has half of the digits.
+    check_renewal<scarp::Packing<scarp::Sphere, scarp::HertzMindlin<>>>(elastic, 1e-7, 0.7);
+  }
+}
+
 TEST_CASE("a block ends with its trouble") {
   auto const law = samples::study_law();
   Sample<samples::Ellipses> sample(blocks::pressed<samples::Ellipses>(law), law);
@@ -61,6 +102,13 @@ TEST_CASE("a block ends with its trouble") {
     sample.packing.pairs = {};
     sample.packing.pairs.skin = 1e-3;
     sample.packing.pairs.critical_step = 1e-6;
+    CHECK(trouble_of(sample, Tensor<2>::Zero()) == scarp::Trouble::not_finite);
+  }
+  SUBCASE("a grain more than a million cells away, and one that is nowhere, when the list is made anew") {
+    sample.packing.pairs.drift = std::numeric_limits<double>::infinity();
+    sample.packing.position(3, 0) = 1e9;
+    CHECK(trouble_of(sample, Tensor<2>::Zero()) == scarp::Trouble::lost_grain);
+    sample.packing.position(3, 0) = std::numeric_limits<double>::quiet_NaN();
     CHECK(trouble_of(sample, Tensor<2>::Zero()) == scarp::Trouble::not_finite);
   }
   SUBCASE("a touch that needs a slow search") {
