@@ -167,6 +167,17 @@ for load, exact in ((1.0, 1.0), (2.0, 0.9493), (3.0, 0.3708)):
     expect(np.abs(analysis.pore_pressures[base] / 10.0 - exact).max() < 0.01, f"pressures {analysis.pore_pressures[base]} Pa at the load factor {load}, exact {exact}")
 saved = pickle.loads(pickle.dumps(analysis))
 expect(np.array_equal(saved.pore_pressures, analysis.pore_pressures), "saved pressures differ")
+# Water that is pulled apart: it turns to vapour at 100 kPa below the air's pressure, and the little water above it weighs on that.
+pulled = scarp.Model(scarp.box_mesh("quad8", [0.1, 1.0], [1, 4]), kinematics="small_strain")
+pulled.fix(["left", "right"], axis=0)
+pulled.fix("bottom")
+pulled.move("top", axis=1, rate=1e-3, amplitude=[(0, 0), (1, 1)])
+pulled.material("soil", scarp.linear_elastic(young=1e7, poisson=0.0))
+pulled.water(shear_modulus=5e6, clock=[(0, 0), (1, 0)], table=1.01)
+stretched = scarp.Analysis(pulled, largest=1.0)
+stretched.to(1.0)
+expect(-100e3 - 9.81e3 * 1.01 - 20.0 < stretched.pore_pressures.min() < -100e3, f"pressure of stretched water: {stretched.pore_pressures.min()}")
+rejected(ValueError, "water table is at a height", lambda: pulled.water(shear_modulus=5e6, clock=[(0, 0)], table=-1.0))
 rejected(ValueError, "no water", lambda: scarp.Analysis(footing(lambda rest: One(2, **rest))).pore_pressures)
 for clock in ([(0, 0), (1, -1)], [(0, 1), (1, 2)], [(1, 5)], [(-1, 0), (1, 1)]):
     rejected(ValueError, "clock of the pore water", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=clock))
