@@ -32,9 +32,9 @@ class FieldWithLoad {
       "where the ground alone is linearised");
 
  public:
-  static constexpr int dim = Field::dim;  ///< of the mesh
-  static constexpr bool is_field = true;  ///< see FieldAttachment
-  using Nodes = std::vector<Vector<dim>>;
+  static constexpr int dim = Field::dim;   ///< of the mesh
+  static constexpr bool is_field = true;   ///< see FieldAttachment
+  using Nodes = std::vector<Vector<dim>>;  ///< places [m]
 
   /// grid: that of the problem, before its first step
   /// \throws InputError for a load with degrees of freedom of its own, or of another thickness than the mesh's
@@ -74,6 +74,7 @@ class FieldWithLoad {
   void at(double load) { field_.at(load); }
   double next_knot(double load) const { return field_.next_knot(load); }
   std::string name() const { return field_.name(); }
+  /// Of the field's own equations, relative to its own measure.
   double residual(Values const& unbalanced) const { return field_.residual(unbalanced); }
   std::string describe(int number) const { return field_.describe(number); }
   std::vector<NodalField> nodal_fields() const { return field_.nodal_fields(); }

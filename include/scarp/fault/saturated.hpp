@@ -50,11 +50,11 @@ struct RuptureTimes {
 /// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {
-  Flow flow{};
+  Flow flow{};                 ///< of the soil
   double shear_modulus = 0.0;  ///< of the ground in size [Pa], see PoreWaterSettings
   double void_ratio = 0.7;     ///< at the start
   double pond = 0.0;           ///< depth of the water that stands on the surface [m]
-  RuptureTimes times{};
+  RuptureTimes times{};        ///< of throw and drainage
 
   /// throw_to [m]
   /// \throws InputError for properties outside of their range
