@@ -77,8 +77,7 @@ class TimeStepper {
     require_positive("share of the critical time step", time_step_share);
   }
 
-  /// Makes the pair list where there is none, it has become too old or it was made for another law or other masses, and
-  /// the critical step with it.
+  /// Makes the pair list where it is missing, too old or of another law or other masses, and the critical step with it.
   /// \return failed / not_finite also for a friction that is no number: clamped by it, forces would pass for ordinary
   /// ones
   /// \throws InputError for a negative friction, and for a law that `require_consistent` rejects when the list is made
