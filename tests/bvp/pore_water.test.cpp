@@ -57,9 +57,9 @@ scarp::Model<2> column(Ground<Quad8> const& grid, Water const& water, bool walls
   model.attach(water);
   return model;
 }
-constexpr scarp::LoadStepping steps{.first = 1.0, .smallest = 1e-6, .largest = 1.0, .max_displacement_gradient = 1.0};
+constexpr scarp::LoadStepping stepping{.first = 1.0, .smallest = 1e-6, .largest = 1.0, .max_displacement_gradient = 1.0};
 scarp::Analysis<2> analysis_of(scarp::Model<2> const& model) {
-  return scarp::Analysis(model, {.stepping = steps, .threads = 1});
+  return scarp::Analysis(model, {.stepping = stepping, .threads = 1});
 }
 
 template <class Water>
@@ -274,13 +274,13 @@ TEST_CASE("a consolidation that was saved goes on with the same bits") {
   auto resumed = model.problem(serial);
   scarp::NoObserver nobody;
   scarp::QuasiNewton<> const newton;
-  REQUIRE(steps.run(newton, whole, 0.0, 3.0, nobody).verdict.acceptable());
+  REQUIRE(stepping.run(newton, whole, 0.0, 3.0, nobody).verdict.acceptable());
   scarp::StateWriter writer;
   writer("problem", whole);
   scarp::StateReader reader(writer.bits());
   reader("problem", resumed);
   CHECK(reader.at_end());
-  for (auto* problem : {&whole, &resumed}) REQUIRE(steps.run(newton, *problem, 3.0, 5.0, nobody).verdict.acceptable());
+  for (auto* problem : {&whole, &resumed}) REQUIRE(stepping.run(newton, *problem, 3.0, 5.0, nobody).verdict.acceptable());
   scarp::StateWriter first;
   scarp::StateWriter second;
   first("problem", whole);
@@ -310,7 +310,7 @@ TEST_CASE("the reaction is that of the committed pressures, whatever was asked i
   PoreWater water(grid, ConstantPermeability{.conductivity = 1e-6}, {.shear_modulus = shear});
   water.prescribe({"bottom"}, load, TimeFunction::ramp(0.0, 1.0));
   scarp::Model<2> const model = column(grid, water);
-  scarp::Analysis analysis(model, {.stepping = steps});
+  scarp::Analysis analysis(model, {.stepping = stepping});
   REQUIRE(analysis.to(0.5).verdict.acceptable());
   double const carried = analysis.reaction("bottom").y();
   analysis.problem().set_load(1.0);  // as a step that is rejected
