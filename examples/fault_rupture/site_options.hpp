@@ -36,9 +36,9 @@ inline void declare_site(CLI::App& app, Choice& choice) {
   app.add_option("--surcharge", choice.surcharge, "on the ground [Pa]")->check(number_from(0.0, true, 1e7));
   auto* const table =
       app.add_option("--water-table", choice.water_table,
-                     "depth below the surface [m], 0 or less (above the ground); below it water fills the pores; "
+                     "depth below the surface [m], negative above it; below the table water fills the pores; "
                      "without it the ground is dry")
-          ->check(number_from(-1e4, true, 0.0));
+          ->check(number_from(-1e4, true, 1e3));
   auto const of_water = [&](char const* option, double& value, char const* what, CLI::Validator const& range) {
     app.add_option(option, value, what)->check(range)->needs(table);
   };
@@ -126,12 +126,15 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
 
 /// Ground that its own weight squeezes to nothing, and a footing that it hardly feels, have no balance.
 inline void require_balance(Choice const& choice) {
-  if (!(choice.effective_unit_weight() > 0.0))
+  if (!(choice.unit_weight > choice.buoyancy().lift))
     scarp::reject(
         "--unit-weight is {} N/m3 with a --void-ratio of {} (dry; its grains would float in water): give the weight of "
         "the dry ground",
         choice.unit_weight, choice.void_ratio);
-  double const carried = choice.surcharge + choice.effective_unit_weight() * choice.depth;
+  if (choice.water_table && *choice.water_table >= choice.depth)
+    scarp::reject("--water-table is {} m deep (the ground is {} m deep, all of it dry): leave it out",
+                  *choice.water_table, choice.depth);
+  double const carried = choice.surcharge + choice.unit_weight * choice.depth - choice.buoyancy().relief(choice.depth);
   if (choice.soil != Soil::dem && choice.young_modulus < carried)
     scarp::reject(
         "--young-modulus is {} Pa; expected from {:.4g} Pa on, what the ground carries at bedrock: give it in pascals",

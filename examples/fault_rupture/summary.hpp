@@ -64,7 +64,7 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
     rest.k0 += ratio;
     rest.k0_min = std::min(rest.k0_min, ratio);
     rest.k0_max = std::max(rest.k0_max, ratio);
-    double const overburden = scene.surcharge + scene.unit_weight * site.depth;
+    double const overburden = scene.overburden(site.depth);
     rest.vertical_error = std::max(rest.vertical_error, std::abs(-stress(1) / overburden - 1.0));
     visit_point(problem, point, [&](auto const& of, int number) {
       for (auto const& [quantity, value] : of.quantities(number)) {

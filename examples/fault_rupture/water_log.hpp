@@ -89,8 +89,7 @@ class WaterLog : public scarp::NeverStops {
     auto const [least, most] = std::ranges::minmax(pressures);
     double ratio = 0.0;
     for (std::size_t node = 0; node < pressures.size(); ++node) {
-      double const carried =
-          scene_.surcharge + scene_.unit_weight * (scene_.ground.surface_level() - grid.nodes()[node].y());
+      double const carried = scene_.overburden(scene_.ground.surface_level() - grid.nodes()[node].y());
       if (carried > 0.0) ratio = std::max(ratio, pressures[node] / carried);
     }
     auto const offset = scarp::offset_at(scene_.fault, std::min(load, scene_.throw_to));

@@ -67,9 +67,9 @@ struct SquareOfVolume {
   double storage(double) const { return 0.0; }
 };
 
-/// Ground of width 2 and height 1 between rigid, smooth, impermeable plates, which drains at its sides; in the time factor
-/// T = c t. Mandel, Geotechnique 3 (1953) 287; for any water Cheng and Detournay, Int. J. Numer. Anal. Meth. Geomech. 12
-/// (1988) 551.
+/// Ground of width 2 and height 1 between rigid, smooth, impermeable plates, which drains at its sides; in the time
+/// factor T = c t. Mandel, Geotechnique 3 (1953) 287; for any water Cheng and Detournay, Int. J. Numer. Anal. Meth.
+/// Geomech. 12 (1988) 551.
 class Mandel {
  public:
   /// storage: bulk modulus of the ground times the storage of its water, 0 for water that keeps its volume
@@ -177,14 +177,16 @@ struct Layers {
   Layer lower, upper;
   bool base_drains = false;
 
-  /// Time of the time factor 1, with the whole resistance and compliance, of half of the height where both ends drain [s].
+  /// Time of the time factor 1, with the whole resistance and compliance, of half of the height where both ends drain
+  /// [s].
   double unit_of_time() const {
     double const resistance = lower.thickness / lower.passes + upper.thickness / upper.passes;
     double const compliance = lower.thickness / lower.modulus + upper.thickness / upper.modulus;
     return resistance * compliance / (base_drains ? 4.0 : 1.0);
   }
 
-  /// \f$ u/q = \sum_j c_j \varphi_j(z) e^{-\omega_j^2 t} \f$: each \f$ \varphi_j \f$ solves \f$ (k \varphi')' = -\omega^2 \varphi/M \f$
+  /// \f$ u/q = \sum_j c_j \varphi_j(z) e^{-\omega_j^2 t} \f$: each \f$ \varphi_j \f$ solves
+  /// \f$ (k \varphi')' = -\omega^2 \varphi/M \f$
   std::function<double(double, double)> pressure() const {
     struct Mode {
       double rate, in_upper, in_lower;

@@ -156,6 +156,10 @@ TEST_CASE("points start with the stress of their depth") {
   VoigtStress<3> expected;
   expected << -1.05e5, -1.05e5, -2.1e5, 0.0, 0.0, 0.0;  // the vertical is the last axis
   CHECK(scarp::GeostaticStress<3>{1e4, 2e4, 0.5}.at(10.0) == expected);
+  // Water from 4 m down lifts 6 kN/m3: 36 kPa at 10 m; from a pond on, 60 kPa.
+  CHECK(scarp::GeostaticStress<2>{1e4, 2e4, 0.5, {.water_table = 4.0, .lift = 6e3}}.at(10.0)(1) == -174e3);
+  CHECK(scarp::GeostaticStress<2>{1e4, 2e4, 0.5, {.water_table = -2.0, .lift = 6e3}}.at(10.0)(1) == -150e3);
+  CHECK(scarp::GeostaticStress<2>{1e4, 2e4, 0.5, {.water_table = 4.0, .lift = 6e3}}.at(4.0)(1) == -90e3);
   CHECK(Elastic::from_lame(3e6, 2e6).initial_state(site).stress.isZero(0.0));
 }
 

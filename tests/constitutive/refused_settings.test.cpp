@@ -112,6 +112,12 @@ TEST_CASE("parameters of elastic and plastic ground that cannot be are refused")
                      {[](Elastic& soil) { soil.initial.surcharge = -1.0; }, "surcharge on the ground surface is -1"},
                      {[](Elastic& soil) { soil.initial.unit_weight = not_a_number; }, "unit weight is nan"},
                      {[](Elastic& soil) { soil.initial.k0 = -0.5; }, "K0, is -0.5"},
+                     {[](Elastic& soil) { soil.initial.buoyancy.lift = -1.0; }, "below the water table is -1"},
+                     {[](Elastic& soil) { soil.initial.buoyancy.water_table = not_a_number; }, "water table is not a"},
+                     {[](Elastic& soil) {
+                        soil.initial.buoyancy = {0.0, 1e6};
+                      },
+                      "the ground would float"},
                  });
   CHECK_REFUSED(elastic().initial_state({.index = 7, .depth = not_a_number}), "initial stress of point 7");
   check_table<Soil>(

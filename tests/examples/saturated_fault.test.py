@@ -85,7 +85,7 @@ expect(done.returncode == 0, done.stderr)
 for name in ("excess_pressure", "water"):
     expect(pathlib.Path(scratch.name, "footing", "figures", f"{name}.png").stat().st_size > 10_000, f"no figure {name}")
 
-for program, options, said in ((DRY, [*SOIL, "--water-table", 0], "which builds fault_rupture_water"), (WET, [*SOIL, "--water-table", 2], "out of range"),
+for program, options, said in ((DRY, [*SOIL, "--water-table", 0], "which builds fault_rupture_water"), (WET, [*SOIL, "--water-table", 2e3], "out of range"), (WET, [*SOIL, "--water-table", 30], "all of it dry"),
                                (WET, [*SOIL, "--drain", 5], "requires --water-table"),
                                (WET, [*SOIL, "--water-table", 0, "--unit-weight", 3000], "would float"),
                                (WET, [*SOIL, "--water-table", 0, "--case", "heavy", "--footing", "frictional"], "only a tied footing")):

@@ -24,24 +24,30 @@ using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
 
 constexpr double depth = 25.0, void_ratio = 0.7, young = 25e6;
 
-/// Sand on a coarse mesh; throw_to [m]
+/// Dry ground that is as light as if water stood in it.
+struct Lifted : NoStructure {
+  double water_table = 0.0;
+  scarp::Buoyancy buoyancy() const { return {water_table, scarp::Water{}.lift(void_ratio)}; }
+};
+
+/// Sand on a coarse mesh; throw_to, water_table [m]
 template <class Structure>
-scarp::FaultScene<Soil, Structure> scene(double throw_to) {
+scarp::FaultScene<Soil, Structure> scene(double throw_to, double water_table = 0.0) {
   constexpr double degree = std::numbers::pi / 180.0;
   scarp::FaultScene<Soil, Structure> made;
   made.ground.layer.size = 5.0;
-  made.unit_weight = scarp::Water{}.buoyant_weight(15.68e3, void_ratio);
+  made.structure.water_table = water_table;
   made.soil = {scarp::IsotropicElasticity::from_young_poisson(young, 0.25),
                {{.cohesion = 1e3, .friction = 30.8 * degree, .dilation = 6.6 * degree}},
-               {made.surcharge, made.unit_weight, 0.4}};
+               {made.surcharge, made.unit_weight, 0.4, made.structure.buoyancy()}};
   made.solver.tolerance = 1e-6;
   made.throw_to = throw_to;
   return made;
 }
 
 template <class Structure>
-auto wet(double throw_to, RuptureTimes const& times) {
-  auto made = scene<Saturated<Structure>>(throw_to);
+auto wet(double throw_to, RuptureTimes const& times, double water_table = 0.0) {
+  auto made = scene<Saturated<Structure>>(throw_to, water_table);
   made.structure.flow = scarp::KozenyCarman::of_conductivity(1e-4, void_ratio);
   made.structure.void_ratio = void_ratio;
   made.structure.shear_modulus = young / 2.5;
@@ -77,9 +83,12 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("a rupture slow enough for the water is that of the dry ground with its buoyant weight") {
-  Run const dry(scene<NoStructure>(0.1));
-  Run const slow(wet<NoStructure>(0.1, {.rupture = 1e12}));
+TEST_CASE("a rupture slow enough for the water is that of dry ground which is lifted alike") {
+  double water_table = 0.0;
+  SUBCASE("water table at the surface") {}
+  SUBCASE("in the ground, between the lines of the mesh") { water_table = 8.0; }
+  Run const dry(scene<Lifted>(0.1, water_table));
+  Run const slow(wet<NoStructure>(0.1, {.rupture = 1e12}, water_table));
   auto const moved = [](auto const& run) { return run.problem.grid().positions(); };
   auto const one = moved(dry);
   auto const other = moved(slow);
@@ -87,15 +96,41 @@ TEST_CASE("a rupture slow enough for the water is that of the dry ground with it
   for (std::size_t node = 0; node < one.size(); ++node) largest = std::max(largest, (one[node] - other[node]).norm());
   CHECK(largest < 1e-4 * 0.1);  // steps differ; measured
   CHECK(slow.water().vapour() == 0.0);
+  if (water_table > 0.0) return;
   // Grains keep their volume, and so does water: what the ground has grown by has come in.
   double const grown =
       slow.area() - scarp::region_area(slow.problem.discretisation().mesh(), "soil", slow.problem.grid().nodes());
   CHECK(-slow.water().expelled() == samples::Approx(grown).epsilon(1e-4));
 }
 
+TEST_CASE("ground with a water table begins in balance, and above the table its pores are empty") {
+  constexpr double table = 8.0;
+  auto made = wet<NoStructure>(0.3, {.rupture = 1.0}, table);
+  CHECK(made.overburden(5.0) == samples::Approx(made.surcharge + 15.68e3 * 5.0));
+  CHECK(made.overburden(20.0) ==
+        samples::Approx(made.surcharge + 15.68e3 * 20.0 - 9.81e3 / (1.0 + void_ratio) * (20.0 - table)));
+  scarp::SerialExecutor serial;
+  auto problem = made.problem(serial);
+  NoObserver none;
+  REQUIRE(made.settle(problem, none).verdict.acceptable());
+  // The stress has its kink at the table, within elements of 5 m: measured.
+  auto const settled = problem.grid().positions();
+  for (std::size_t node = 0; node < settled.size(); ++node)
+    CHECK((settled[node] - problem.grid().nodes()[node]).norm() < 5e-4);
+  REQUIRE(made.rupture(problem, none).verdict.acceptable());
+  auto const pressures =
+      problem.attached<decltype(made.structure.attached(problem.discretisation(), 1.0))>().pressures();
+  CHECK(std::ranges::max(pressures) > 20e3);
+  for (std::size_t node = 0; node < pressures.size(); ++node)
+    if (problem.grid().nodes()[node].y() >= depth - table) CHECK(pressures[node] == 0.0);
+}
+
 TEST_CASE("a fast rupture leaves suction and pressure, which drain while the bedrock rests") {
   RuptureTimes const times{.rupture = 1.0, .drainage = 1e6};
-  Run fast(wet<NoStructure>(0.3, times));
+  double water_table = 0.0;
+  SUBCASE("without water on the ground") {}
+  SUBCASE("with it") { water_table = -3.0; }
+  Run fast(wet<NoStructure>(0.3, times, water_table));
   auto const begun = fast.problem.grid().positions();
   double const before = fast.area();
   auto const pressures = fast.water().pressures();
@@ -144,8 +179,8 @@ TEST_CASE("times of a rupture follow the throw, and those without sense are refu
   CHECK_REFUSED(wet<NoStructure>(0.1, {.rupture = 0.0}).problem(*std::make_unique<scarp::SerialExecutor>()),
                 "time of the rupture");
   auto raised = wet<NoStructure>(0.1, {});
-  raised.structure.pond = -1.0;
-  CHECK_REFUSED(raised.problem(*std::make_unique<scarp::SerialExecutor>()), "depth of the water on the ground", "-1");
+  raised.structure.void_ratio = -0.5;
+  CHECK_REFUSED(raised.problem(*std::make_unique<scarp::SerialExecutor>()), "the soil carries");
   CHECK_REFUSED(wet<NoStructure>(0.1, {.drainage = -1.0}).problem(*std::make_unique<scarp::SerialExecutor>()),
                 "time of drainage");
 }

@@ -89,6 +89,19 @@ TEST_CASE("packings that do not come to their stress end the preparation in word
   ended([](auto& g) { g.compression.servo.max_steps = 1; }, {"stopped at 51040 Pa"});
 }
 
+TEST_CASE("packings below a water table carry what the water leaves") {
+  auto ground = small_ground();
+  ground.buoyancy = {.water_table = 3.0, .lift = 6e3};
+  auto const law = samples::study_law();
+  auto const made = ground.make<Grains>(law, {3.0, 6.0});
+  for (std::size_t k = 0; k < 2; ++k) {
+    double const depth = made.depths[k];
+    double const expected = ground.surcharge + ground.unit_weight * depth - (depth > 3.0 ? 6e3 * (depth - 3.0) : 0.0);
+    CHECK(-scarp::balance(made.packings[k], law).stress(1, 1) ==
+          samples::Approx(expected).epsilon(2e-3));  // servo 1e-3
+  }
+}
+
 TEST_CASE("depths are the same by their overburden, in models of any size") {
   // A model in a centrifuge: a hundred times the weight, a hundredth of the depths.
   auto ground = small_ground();

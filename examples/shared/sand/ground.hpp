@@ -18,7 +18,7 @@ namespace examples {
 template <class PackingType>
 scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename PackingType::Law const& law,
                                                  std::uint64_t seed, double unit_weight, double surcharge,
-                                                 std::vector<double> depths) {
+                                                 std::vector<double> depths, scarp::Buoyancy const& buoyancy = {}) {
   using Shape = typename PackingType::Shape;
   constexpr double off = 0.01;
   constexpr double least_friction = 0.005;  // without any, few grains at a low pressure may not come to rest
@@ -35,7 +35,8 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
   scarp::LevelGround<SandGrading<Shape>> ground{.cloud = cloud_of<Shape>(sand, seed),
                                                 .unit_weight = unit_weight,
                                                 .surcharge = surcharge,
-                                                .overconsolidation_ratio = sand.overconsolidation_ratio};
+                                                .overconsolidation_ratio = sand.overconsolidation_ratio,
+                                                .buoyancy = buoyancy};
   // The uppermost point may carry less than the preparation's usual pressure.
   double const least = ground.overburden(std::ranges::min(depths));
   ground.preparation.pressure = std::min(ground.preparation.pressure, least);

@@ -9,6 +9,7 @@
 
 #include "../device/device.hpp"
 #include "../sand/sand.hpp"
+#include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/constitutive/hydraulic.hpp"
 #include "scarp/tensor/tensor.hpp"
 
@@ -165,9 +166,9 @@ struct Choice {
 
   /// Of lengths that follow the depth where they are not given.
   double scale() const { return depth / study_depth; }
-  /// That the grains carry [N/m3]: in water less its lift.
-  double effective_unit_weight() const {
-    return water_table ? scarp::Water{}.buoyant_weight(unit_weight, void_ratio) : unit_weight;
+  /// Of the ground before the rupture.
+  scarp::Buoyancy buoyancy() const {
+    return water_table ? scarp::Buoyancy{*water_table, scarp::Water{}.lift(void_ratio)} : scarp::Buoyancy{};
   }
   /// Below it the balance of a point counts as if it carried so much [Pa].
   double least_pressure() const { return std::max(surcharge, fault_rupture::surcharge) / 2.0; }

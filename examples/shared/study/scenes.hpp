@@ -38,7 +38,7 @@ template <class Structure>
 void set(scarp::Saturated<Structure>& structure, Choice const& choice) {
   set(static_cast<Structure&>(structure), choice);
   structure.void_ratio = choice.void_ratio;
-  structure.pond = -choice.water_table.value_or(0.0);
+  structure.water_table = choice.water_table.value_or(0.0);
   structure.flow = scarp::KozenyCarman::of_conductivity(choice.conductivity, choice.void_ratio);
 }
 #endif
@@ -50,7 +50,7 @@ SceneType without_soil(Choice const& choice) {
   SceneType scene;
   scene.ground = ground_of<Element>(choice);
   scene.fault = fault_of(choice);
-  scene.unit_weight = choice.effective_unit_weight();
+  scene.unit_weight = choice.unit_weight;
   scene.surcharge = choice.surcharge;
   scene.throw_to = choice.throw_over_depth * scene.ground.depth();
   set(scene.structure, choice);

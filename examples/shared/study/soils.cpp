@@ -19,7 +19,8 @@ namespace {
 
 /// Level ground, by default at the reference study's K0 of about 0.4.
 scarp::GeostaticStress<2> ground_at_rest(Choice const& choice) {
-  return {.surcharge = choice.surcharge, .unit_weight = choice.effective_unit_weight(), .k0 = choice.k0};
+  return {
+      .surcharge = choice.surcharge, .unit_weight = choice.unit_weight, .k0 = choice.k0, .buoyancy = choice.buoyancy()};
 }
 
 scarp::IsotropicElasticity soil_elasticity(Choice const& choice) {
@@ -69,8 +70,8 @@ Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& si
     auto const k = static_cast<std::size_t>(number);
     if (depths[k].empty()) return;
     auto const seed = k > 0 ? scarp::family_seed(sand.seed, k) : sand.seed;
-    columns.sources[k] = examples::level_ground<Grains>(sand, law, seed, choice.effective_unit_weight(),
-                                                        choice.surcharge, std::move(depths[k]));
+    columns.sources[k] = examples::level_ground<Grains>(sand, law, seed, choice.unit_weight, choice.surcharge,
+                                                        std::move(depths[k]), choice.buoyancy());
     if (images == 1) return;
     columns.sources[count + k] = columns.sources[k];
     for (auto& packing : columns.sources[count + k].packings) packing = scarp::mirrored(std::move(packing));

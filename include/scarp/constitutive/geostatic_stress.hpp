@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 
+#include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 
@@ -15,26 +16,32 @@ concept InitialStressField = requires(Field const& field, double depth) {
   { field.at(depth) } -> std::same_as<VoigtStress<Dim>>;
 };
 
-/// Level ground at rest: vertical \f$ \sigma_v = -(q + \gamma z) \f$, horizontal \f$ \sigma_h = K_0 \sigma_v \f$, no
-/// shear. The vertical is the last axis; compression is negative.
+/// Level ground at rest: vertical \f$ \sigma_v = -(q + \gamma z) \f$ less what water carries, horizontal
+/// \f$ \sigma_h = K_0 \sigma_v \f$, no shear. The vertical is the last axis; compression is negative.
 template <int Dim>
 struct GeostaticStress {
   double surcharge = 0.0;    ///< q [Pa], vertical pressure on the ground surface, positive in compression
   double unit_weight = 0.0;  ///< gamma [N/m3]
   double k0 = 1.0;           ///< horizontal over vertical stress
+  Buoyancy buoyancy{};       ///< of the water table in it; stresses are effective ones
 
-  /// \throws InputError for a number that is negative or not finite
+  /// \throws InputError for a number that is negative or not finite, and ground that floats
   void validate() const {
     require_not_negative("surcharge on the ground surface", surcharge);
     require_not_negative("unit weight", unit_weight);
     require_not_negative("ratio of horizontal to vertical stress, K0,", k0);
+    buoyancy.validate();
+    if (buoyancy.lift > unit_weight)
+      reject(
+          "the unit weight is {} N/m3 (water lifts {} N/m3, so that the ground would float): give that of dry ground",
+          unit_weight, buoyancy.lift);
   }
 
   /// depth [m]
   /// \throws InputError above the ground surface
   VoigtStress<Dim> at(double depth) const {
     require_below_surface(depth);
-    double const vertical = -(surcharge + unit_weight * std::max(depth, 0.0));
+    double const vertical = -(surcharge + unit_weight * std::max(depth, 0.0) - buoyancy.relief(depth));
     VoigtStress<Dim> stress = VoigtStress<Dim>::Zero();
     stress.template head<Dim - 1>().setConstant(k0 * vertical);
     stress(Dim - 1) = vertical;

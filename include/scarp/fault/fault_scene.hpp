@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/varying_body_force.hpp"
+#include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/precompiled.hpp"
@@ -34,9 +36,9 @@ auto const& alone(Soil const& soil) {
 /// Rejects soil whose vertical stress does not carry the weight that the scene puts on it: ground that begins out of
 /// balance settles or heaves first, and its strength is that of another stress. Of some sites from the shallowest to
 /// the deepest the middle one counts, by its error: packings prepared for a few depths carry too much here and too
-/// little there. unit_weight [N/m3], surcharge [Pa] \throws InputError
-template <Material Soil, int Dim>
-void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit_weight, double surcharge) {
+/// little there. overburden(depth [m]) [Pa] \throws InputError
+template <Material Soil, int Dim, class Overburden>
+void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, Overburden const& overburden) {
   constexpr double tolerance = 0.01;  // servos of preparations reach 1e-3
   constexpr std::size_t looks = 15;
   struct Look {
@@ -47,7 +49,7 @@ void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit
   std::vector<Look> found;
   for (std::size_t k = 0; k < looks && !sites.empty(); ++k) {
     auto const& site = sites[k * (sites.size() - 1) / (looks - 1)];
-    double const weight = surcharge + unit_weight * site.depth;
+    double const weight = overburden(site.depth);
     if (!(weight > 0.0)) continue;
     MaterialPoints<Dim> const point(alone(soil), std::span(&site, 1));
     found.push_back({site.depth, -point.committed_stress(0)(Dim - 1), weight});
@@ -57,9 +59,9 @@ void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, double unit
   std::ranges::nth_element(found, middle, {}, &Look::error);
   if (std::abs(middle->error()) <= tolerance) return;
   reject(
-      "the soil carries {:.4g} Pa at a depth of {:.4g} m (the scene's surcharge of {:.4g} Pa and unit weight of {:.4g} "
-      "N/m3 weigh {:.4g} Pa there): give both to the soil's initial stress and to the scene alike",
-      middle->carried, middle->depth, surcharge, unit_weight, middle->weight);
+      "the soil carries {:.4g} Pa at a depth of {:.4g} m (the scene's surcharge and unit weight, less the lift of "
+      "water, are {:.4g} Pa there): give them to the soil's initial stress and to the scene alike",
+      middle->carried, middle->depth, middle->weight);
 }
 
 template <class Structure, class Grid>
@@ -69,6 +71,13 @@ auto attached(Structure const& structure, Grid const& grid, double throw_to) {
   } else {
     return structure.attached(grid);
   }
+}
+
+/// Of ground below a structure.
+template <class Structure>
+Buoyancy buoyancy_of(Structure const& structure) {
+  if constexpr (requires { structure.buoyancy(); }) return structure.buoyancy();
+  return {};
 }
 
 /// Of what is attached to a mesh.
@@ -85,7 +94,8 @@ namespace scarp {
 /// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is
 /// attached, in stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves. attached(grid),
 /// or attached(grid, throw_to): what is attached may follow the throw [m]; then end(throw_to), where there is one, is
-/// the load factor up to which the bedrock rests after it.
+/// the load factor up to which the bedrock rests after it. buoyancy(), where there is one, is that of the ground's
+/// water.
 template <class Structure, class Grid>
 concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh, Grid const& grid,
                                   LoadHistory& loads) {
@@ -112,7 +122,7 @@ struct SCARP_EXPORT FaultScene {
   Soil soil;                       ///< carries the geostatic stress at first
   GroundType ground{};             ///< mesh and level of the surface
   Motion fault{};                  ///< motion of the bedrock
-  double unit_weight = 15.68e3;    ///< [N/m3]
+  double unit_weight = 15.68e3;    ///< [N/m3], without water
   double surcharge = 4e3;          ///< [Pa], on the ground surface, below a structure until it is placed
   double throw_to = 0.085 * 25.0;  ///< [m]
   Solver solver{};                 ///< of each load step
@@ -133,6 +143,11 @@ struct SCARP_EXPORT FaultScene {
     std::vector<double> depths;
     for (auto const& site : soil_sites()) depths.push_back(site.depth);
     return depths;
+  }
+
+  /// Vertical effective stress [Pa] of the ground at rest, compression positive, at a depth [m].
+  double overburden(double depth) const {
+    return surcharge + unit_weight * depth - detail::buoyancy_of(structure).relief(depth);
   }
 
   /// \throws InputError for parts that do not fit, and for soil that does not carry the weight
@@ -210,7 +225,7 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   require_not_negative("surcharge", surcharge);
   require_positive("throw", throw_to);
   Grid grid(mesh());
-  detail::require_carried(soil, soil_sites(grid), unit_weight, surcharge);
+  detail::require_carried(soil, soil_sites(grid), [&](double depth) { return overburden(depth); });
   auto attached = detail::attached(structure, grid, throw_to);
   int const extra_dofs = detail::extra_dofs(attached);
   auto const moved = end() > throw_to ? TimeFunction({{0.0, 0.0}, {throw_to, throw_to}}) : TimeFunction::after(0.0);
@@ -219,6 +234,12 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
   Eigen::VectorXd dead =
       grid.body_force([&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
+  if constexpr (requires { structure.buoyancy(); }) {
+    auto const buoyancy = structure.buoyancy();
+    dead -= varying_body_force(grid, [&](Vector<dim> const& place) -> Vector<dim> {
+      return buoyancy.at(ground.surface_level() - place(dim - 1)) * down;
+    });
+  }
   dead += grid.traction("surface", surcharge * down);
   LoadHistory loads(std::move(dead));
   structure.add_loads(grid, surcharge, loads);

@@ -44,17 +44,19 @@ struct RuptureTimes {
   }
 };
 
-/// Ground whose pores are full of water, and what stands on it. The scene's unit weight and its soil's stresses are
-/// those of ground in water, see Water::buoyant_weight. Before the fault moves, and while a structure is placed, all
-/// excess pressures drain.
+/// Ground whose pores are full of water below a water table, and what stands on it. The scene's unit weight is that of
+/// dry ground; its soil needs the buoyancy(), with which its stresses are effective ones. The surface drains, below a
+/// structure too. Before the fault moves, and while a structure is placed, all excess pressures drain.
 /// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {
   Flow flow{};                 ///< of the soil
   double shear_modulus = 0.0;  ///< of the ground in size [Pa], see PoreWaterSettings
   double void_ratio = 0.7;     ///< at the start
-  double pond = 0.0;           ///< depth of the water that stands on the surface [m]
+  double water_table = 0.0;    ///< depth below the surface [m], negative for water that stands on it
   RuptureTimes times{};        ///< of throw and drainage
+
+  Buoyancy buoyancy() const { return {water_table, Water{}.lift(void_ratio)}; }  ///< Of the ground at the start.
 
   /// throw_to [m]
   /// \throws InputError for properties outside of their range
@@ -62,7 +64,6 @@ struct Saturated : Structure {
   PoreWater<Grid, Flow> attached(Grid const& grid, double throw_to) const {
     static_assert(std::same_as<decltype(Structure::attached(grid)), NoAttachment>,
                   "scarp: a structure that is attached to the mesh cannot stand on saturated ground yet");
-    require_not_negative("depth of the water on the ground", pond);
     double const surface = surface_level(grid.mesh());
     double const depth = surface - bottom_level(grid.mesh());
     double const diffusion = 2.0 * shear_modulus * detail::validated(flow).mobility(void_ratio);  // [m2/s]
@@ -73,9 +74,11 @@ struct Saturated : Structure {
                                 {.shear_modulus = shear_modulus,
                                  .void_ratio = void_ratio,
                                  .clock = detail::validated(times).clock(this->start(), throw_to, before),
-                                 .at_rest = WaterAtRest{.level = surface + pond}});
+                                 .at_rest = WaterAtRest{.level = surface - water_table}});
     for (auto const& region : grid.regions())
       if (region != "soil") water.exclude(region);
+    for (auto const* above : {"surface", "footing_base"})
+      if (grid.has_boundary(above)) water.drain({above});
     return water;
   }
   /// Load factor at the end, when the water has drained. throw_to [m]

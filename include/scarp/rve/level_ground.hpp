@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/dem/cloud.hpp"
 #include "scarp/dem/preparation.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
@@ -22,6 +23,7 @@ struct LevelGround {
   double unit_weight = 15.68e3;          ///< [N/m3]
   double surcharge = 4e3;                ///< [Pa]
   double overconsolidation_ratio = 1.0;  ///< what each depth once carried over its overburden, at least 1: raises K0
+  Buoyancy buoyancy{};                   ///< of the water table in it
   /// IsotropicPreparation with defaults of level ground, which a designated initialiser of some members leaves.
   struct Preparation {
     double pressure = 2e3;                                       ///< [Pa], at most what the uppermost point carries
@@ -37,10 +39,11 @@ struct LevelGround {
     require_not_negative("unit weight of level ground", unit_weight);
     require_not_negative("surcharge of level ground", surcharge);
     require_at_least("overconsolidation ratio of level ground", overconsolidation_ratio, 1.0);
+    buoyancy.validate();
   }
 
-  /// Vertical stress [Pa], compression positive, at a depth [m].
-  double overburden(double depth) const { return surcharge + unit_weight * depth; }
+  /// Vertical effective stress [Pa], compression positive, at a depth [m].
+  double overburden(double depth) const { return surcharge + unit_weight * depth - buoyancy.relief(depth); }
 
   /// depths [m], any order; those with the same overburden, to 1e-7 of it, share a packing
   /// \throws PreparationError when a stress is not reached, InputError for bad parameters

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scarp/core/error.hpp"
+
+namespace scarp {
+
+/// What pore water at rest carries of level ground; none by default.
+struct Buoyancy {
+  double water_table = std::numeric_limits<double>::infinity();  ///< depth [m], negative above the ground surface
+  double lift = 0.0;                                             ///< on the grains below it [N/m3], see Water::lift
+
+  /// \throws InputError for a lift that is negative or not finite, and a depth that is no number
+  void validate() const {
+    require_not_negative("lift of ground below the water table", lift);
+    if (std::isnan(water_table)) reject("the depth of the water table is not a number: give it in metres");
+  }
+  /// Lift [N/m3] at a depth [m].
+  double at(double depth) const { return depth > submerged_from() ? lift : 0.0; }
+  /// Vertical pressure [Pa] that it takes from the ground at a depth [m].
+  double relief(double depth) const { return lift * std::max(depth - submerged_from(), 0.0); }
+
+ private:
+  double submerged_from() const { return std::max(water_table, 0.0); }
+};
+
+}  // namespace scarp
