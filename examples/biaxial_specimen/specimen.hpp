@@ -35,16 +35,7 @@ struct Dry {
   static scarp::Mesh<Element> own_mesh(Choice const& choice) requires std::is_same_v<Element, scarp::Tri3> {
     return crossed_rectangle(choice.width, choice.height, choice.columns, choice.rows);
   }
-  static Lateral attached(Choice const&, Grid const&, scarp::MaterialPoints<2> const&, Lateral lateral) {
-    return lateral;
-  }
-  /// Adds the committed forces [N] of what is attached.
-  template <class Problem>
-  static scarp::Verdict add_attached(Problem const& problem, Eigen::VectorXd& forces) {
-    auto const& grid = problem.discretisation();
-    return problem.template attached<Lateral>().add_forces(grid.positions(), Eigen::VectorXd::Zero(grid.dof_count()),
-                                                           forces);
-  }
+  static scarp::NoAttachment field(Choice const&, Grid const&, scarp::MaterialPoints<2> const&) { return {}; }
 };
 
 /// A body between smooth platens under lateral pressure. The load factor is the axial strain relative to the first
@@ -84,7 +75,9 @@ class Specimen {
     auto const& grid = problem_.discretisation();
     Eigen::VectorXd forces;
     grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.committed_stresses(), forces);
-    auto const verdict = Pores::add_attached(problem_, forces);
+    auto const verdict = problem_.template attached<typename Pores::Lateral>().add_forces(
+        grid.positions(), Eigen::VectorXd::Zero(grid.dof_count()), forces);
+    if (problem_.has_field()) forces += problem_.field()->ground_force();
     double sum = verdict.acceptable() ? at_rest_ * top_area() : std::nan("");
     for (int const node : sides_.top) sum -= forces(2 * node + 1);
     return sum;
@@ -102,11 +95,11 @@ class Specimen {
     // Water at rest pushes the sides from within as far as it pushes them from without, and platens alike: it does no
     // work, and what is left of the lateral pressure acts on grains and excess pressures.
     typename Pores::Lateral lateral(sides_.lateral, choice.effective(), choice.grains.sand.thickness);
-    auto attached = Pores::attached(choice, grid, points, std::move(lateral));
-    constraints.add_dofs(attached.extra_dofs());
+    auto field = Pores::field(choice, grid, points);
+    if constexpr (Pores::have_water) constraints.add_dofs(field.extra_dofs());
     scarp::LoadHistory loads(Eigen::VectorXd::Zero(constraints.dof_count()));
-    return {std::move(grid),  std::move(points), std::move(constraints),
-            std::move(loads), executor,          std::move(attached)};
+    return {std::move(grid), std::move(points),  std::move(constraints), std::move(loads),
+            executor,        std::move(lateral), std::move(field)};
   }
   double top_area() const {
     auto const& places = problem_.discretisation().positions();
@@ -138,8 +131,8 @@ struct Watch : scarp::NeverStops {
 };
 
 /// Columns of the table. Stresses of the grains [Pa] are tension positive, axial strain (shortening over the first
-/// height), top force [N] and the water's excess pressure [Pa] positive in compression; iterations count all attempts at
-/// the row.
+/// height), top force [N] and the water's excess pressure [Pa] positive in compression; iterations count all attempts
+/// at the row.
 inline std::vector<std::string> columns(bool have_water) {
   std::vector<std::string> names{"step",     "axial_strain", "top_force",  "mean_sxx",
                                  "mean_syy", "mean_sxy",     "iterations", "residual"};

@@ -97,17 +97,13 @@ SceneSize size_of_any(Choice const& choice) {
 /// make: takes the type of the chosen scene
 template <class Make>
 auto with_scene(Choice const& choice, Make const& make) {
-#ifdef FAULT_RUPTURE_WATER
-  if (choice.scene != Case::free && choice.base != Base::tied)
-    scarp::reject(
-        "--footing frictional is given with --water-table (only a tied footing stands on wet ground): leave one out");
-#else
+#ifndef FAULT_RUPTURE_WATER
   if (choice.water_table)
     scarp::reject(
         "--water-table is given to a program without water: start it by ./examples/run, which builds "
         "fault_rupture_water");
-  if (choice.scene != Case::free && choice.base != Base::tied) return make(std::type_identity<Scene<RigidFooting>>());
 #endif
+  if (choice.scene != Case::free && choice.base != Base::tied) return make(std::type_identity<Scene<RigidFooting>>());
   if (choice.scene == Case::free) return make(std::type_identity<Scene<FreeField>>());
   return make(std::type_identity<Scene<TiedFooting>>());
 }

@@ -20,14 +20,16 @@ struct Scene : scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, Structu
 };
 
 #ifdef FAULT_RUPTURE_WATER
-using FreeField = scarp::Saturated<scarp::NoStructure>;
-using TiedFooting = scarp::Saturated<scarp::TiedFooting>;
-using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>>;
+template <class Structure>
+using OnGround = scarp::Saturated<Structure>;
 #else
-using FreeField = scarp::NoStructure;
-using TiedFooting = scarp::TiedFooting;
-using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>, Scene<RigidFooting>>;
+template <class Structure>
+using OnGround = Structure;
 #endif
+using FreeField = OnGround<scarp::NoStructure>;
+using TiedFooting = OnGround<scarp::TiedFooting>;
+using RigidFooting = OnGround<FrictionalFooting>;
+using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>, Scene<RigidFooting>>;
 
 /// processes: that share the packings out among them; reports on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError

@@ -69,8 +69,8 @@ inline void remove_older_results(std::filesystem::path const& folder, bool goes_
   }
 }
 
-/// Takes the folder over, once: a new run before it writes its tables, a resumed one at its first attempt, since until then
-/// its checkpoint may be rejected.
+/// Takes the folder over, once: a new run before it writes its tables, a resumed one at its first attempt, since until
+/// then its checkpoint may be rejected.
 struct Takeover : scarp::NeverStops {
   scarp::RunFolder& folder;
   std::function<void()> also{};
@@ -291,9 +291,7 @@ extern template int run(Choice const&, Scene<FreeField> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<FreeField> const&);
 extern template int run(Choice const&, Scene<TiedFooting> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<TiedFooting> const&);
-#ifndef FAULT_RUPTURE_WATER
 extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<RigidFooting> const&);
-#endif
 
 }  // namespace fault_rupture

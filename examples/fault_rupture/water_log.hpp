@@ -79,7 +79,7 @@ class WaterLog : public scarp::NeverStops {
 
   template <class Problem>
   auto const& water_of(Problem const& problem) const {
-    return problem.template attached<decltype(scene_.structure.attached(problem.discretisation(), scene_.throw_to))>();
+    return problem.template attached<decltype(scene_.structure.field(problem.discretisation(), scene_.throw_to))>();
   }
   template <class Problem>
   Row row_of(Problem const& problem, double load) const {

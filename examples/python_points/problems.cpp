@@ -410,8 +410,8 @@ void bind(py::module_& module, std::string const& suffix) {
       .def("nodal_fields",
            [](All const& self) {
              py::dict fields;
-             if (auto const* const attached = self.seen().problem().attachment()) {
-               for (auto& [name, values] : attached->nodal_fields())
+             if (auto const* const field = self.seen().problem().field()) {
+               for (auto& [name, values] : field->nodal_fields())
                  fields[py::str(name)] = array_of<double>(std::move(values), {}, {});
              }
              return fields;

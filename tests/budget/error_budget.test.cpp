@@ -60,6 +60,7 @@ class Points {
   Points(Material const& material, int count) : points_(material, numbered(count)) {}
 
   static bool has_attachment() { return true; }  // no work is added up
+  static bool has_field() { return false; }
   auto const& points() const { return points_; }
   auto const& gradients() const { return points_.gradients(); }
   scarp::SerialExecutor& executor() const { return serial_; }

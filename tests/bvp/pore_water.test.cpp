@@ -57,7 +57,8 @@ scarp::Model<2> column(Ground<Quad8> const& grid, Water const& water, bool walls
   model.attach(water);
   return model;
 }
-constexpr scarp::LoadStepping stepping{.first = 1.0, .smallest = 1e-6, .largest = 1.0, .max_displacement_gradient = 1.0};
+constexpr scarp::LoadStepping stepping{
+    .first = 1.0, .smallest = 1e-6, .largest = 1.0, .max_displacement_gradient = 1.0};
 scarp::Analysis<2> analysis_of(scarp::Model<2> const& model) {
   return scarp::Analysis(model, {.stepping = stepping, .threads = 1});
 }
@@ -280,7 +281,8 @@ TEST_CASE("a consolidation that was saved goes on with the same bits") {
   scarp::StateReader reader(writer.bits());
   reader("problem", resumed);
   CHECK(reader.at_end());
-  for (auto* problem : {&whole, &resumed}) REQUIRE(stepping.run(newton, *problem, 3.0, 5.0, nobody).verdict.acceptable());
+  for (auto* problem : {&whole, &resumed})
+    REQUIRE(stepping.run(newton, *problem, 3.0, 5.0, nobody).verdict.acceptable());
   scarp::StateWriter first;
   scarp::StateWriter second;
   first("problem", whole);
@@ -301,8 +303,7 @@ TEST_CASE("files have the pressure of all nodes, reports the imbalance of the wa
   auto const parts = problem.residuals(problem.evaluate_committed().unbalanced);
   REQUIRE(parts.size() == 2);
   CHECK(parts[1].name == "water");
-  CHECK(describe_dof(problem.grid(), problem.first_beside(), problem.attachment()) ==
-        "pore pressure at node 0 at (0, 0)");
+  CHECK(problem.describe_dof(problem.first_of_field()) == "pore pressure at node 0 at (0, 0)");
 }
 
 TEST_CASE("the reaction is that of the committed pressures, whatever was asked in between") {

@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "scarp/constitutive/mohr_coulomb.hpp"
+#include "scarp/contact/linear_frictional.hpp"
 #include "scarp/fault/free_field_fault.hpp"
+#include "scarp/fault/frictional_footing.hpp"
 #include "scarp/fault/tied_footing.hpp"
 #include "scarp/mesh/facets.hpp"
 #include "support/approx.hpp"
@@ -24,8 +26,11 @@ using Soil = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
 
 constexpr double depth = 25.0, void_ratio = 0.7, young = 25e6;
 
+using Frictional = scarp::FrictionalFooting<scarp::LinearFrictional>;
+
 /// Dry ground that is as light as if water stood in it.
-struct Lifted : NoStructure {
+template <class Structure>
+struct Lifted : Structure {
   double water_table = 0.0;
   scarp::Buoyancy buoyancy() const { return {water_table, scarp::Water{}.lift(void_ratio)}; }
 };
@@ -73,7 +78,7 @@ struct Run {
     REQUIRE(scene.rest(problem, none).verdict.acceptable());
   }
   auto const& water() const {
-    using Water = decltype(scene.structure.attached(problem.discretisation(), 1.0));
+    using Water = decltype(scene.structure.field(problem.discretisation(), 1.0));
     return problem.template attached<Water>();
   }
   double area() const {
@@ -87,7 +92,7 @@ TEST_CASE("a rupture slow enough for the water is that of dry ground which is li
   double water_table = 0.0;
   SUBCASE("water table at the surface") {}
   SUBCASE("in the ground, between the lines of the mesh") { water_table = 8.0; }
-  Run const dry(scene<Lifted>(0.1, water_table));
+  Run const dry(scene<Lifted<NoStructure>>(0.1, water_table));
   Run const slow(wet<NoStructure>(0.1, {.rupture = 1e12}, water_table));
   auto const moved = [](auto const& run) { return run.problem.grid().positions(); };
   auto const one = moved(dry);
@@ -118,8 +123,7 @@ TEST_CASE("ground with a water table begins in balance, and above the table its 
   for (std::size_t node = 0; node < settled.size(); ++node)
     CHECK((settled[node] - problem.grid().nodes()[node]).norm() < 5e-4);
   REQUIRE(made.rupture(problem, none).verdict.acceptable());
-  auto const pressures =
-      problem.attached<decltype(made.structure.attached(problem.discretisation(), 1.0))>().pressures();
+  auto const pressures = problem.attached<decltype(made.structure.field(problem.discretisation(), 1.0))>().pressures();
   CHECK(std::ranges::max(pressures) > 20e3);
   for (std::size_t node = 0; node < pressures.size(); ++node)
     if (problem.grid().nodes()[node].y() >= depth - table) CHECK(pressures[node] == 0.0);
@@ -161,6 +165,31 @@ TEST_CASE("a footing has no water, stands drained before the fault moves, and se
     if (grid.nodes()[node].y() >= depth) CHECK(pressures[node] == 0.0);
   CHECK(fast.water().expelled() > 0.1);  // squeezed out below the footing
   CHECK(fast.scene.end() == fast.scene.throw_to);
+}
+
+TEST_CASE(
+    "a footing on a frictional base stands on wet ground as on dry ground that is lifted alike, and feels its water") {
+  auto const put = [](auto made) {
+    made.structure.footing = {.bearing = 91e3};
+    made.structure.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = 0.5};
+    return made;
+  };
+  Run const dry(put(scene<Lifted<Frictional>>(0.1)));
+  Run const slow(put(wet<Frictional>(0.1, {.rupture = 1e12})));
+  auto const one = dry.scene.structure.motion(dry.problem);
+  auto const other = slow.scene.structure.motion(slow.problem);
+  CHECK(other.settlement == samples::Approx(one.settlement).epsilon(1e-3));  // steps differ; measured
+  CHECK(std::abs(other.tilt - one.tilt) < 1e-3 * std::abs(one.tilt));
+  CHECK(scarp::support(other) == samples::Approx(91e3 * 10.0).epsilon(1e-6));
+
+  Run fast(put(wet<Frictional>(0.1, {.rupture = 1.0, .drainage = 1e6})));
+  auto const thrown = fast.scene.structure.motion(fast.problem);
+  CHECK(std::abs(thrown.tilt - one.tilt) > 1e-2 * std::abs(one.tilt));
+  fast.rest();
+  auto const rested = fast.scene.structure.motion(fast.problem);
+  CHECK(scarp::support(rested) == samples::Approx(91e3 * 10.0).epsilon(1e-6));
+  CHECK(std::abs(rested.settlement - thrown.settlement) > 1e-5);
+  for (double const pressure : fast.water().pressures()) CHECK(std::abs(pressure) < 1.0);
 }
 
 TEST_CASE("times of a rupture follow the throw, and those without sense are refused") {

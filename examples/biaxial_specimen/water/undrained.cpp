@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../specimen.hpp"
 #include "scarp/bvp/default_integration.hpp"
-#include "scarp/bvp/field_with_load.hpp"
 #include "scarp/bvp/pore_water.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 
@@ -16,7 +15,6 @@ struct Undrained {
   using Grid = scarp::DefaultGrid<Element>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
   using Water = scarp::PoreWater<Grid, scarp::KozenyCarman>;
-  using Attached = scarp::FieldWithLoad<Lateral, Water>;
   static constexpr bool have_water = true;
 
   /// A specimen without a file.
@@ -25,8 +23,7 @@ struct Undrained {
         .generate();
   }
 
-  static Attached attached(Choice const& choice, Grid const& grid, scarp::MaterialPoints<2> const& points,
-                           Lateral lateral) {
+  static Water field(Choice const& choice, Grid const& grid, scarp::MaterialPoints<2> const& points) {
     auto const up = [](auto const& node) { return node.y(); };
     auto const [low, high] = std::ranges::minmax(grid.nodes(), {}, up);
     double void_ratio = 0.0;
@@ -39,25 +36,19 @@ struct Undrained {
     double const end = choice.steps * choice.axial_strain_step;
     scarp::WaterAtRest rest;
     rest.level = up(high) + choice.pore_pressure / rest.unit_weight;
-    return {grid, std::move(lateral),
-            Water(grid, {.grain = choice.grain_diameter},
-                  {.shear_modulus = shear_modulus,
-                   .void_ratio = void_ratio,
-                   .clock = scarp::TimeFunction({{0.0, 0.0}, {end, end * (up(high) - up(low)) / choice.rate}}),
-                   .at_rest = rest})};
-  }
-
-  template <class Problem>
-  static scarp::Verdict add_attached(Problem const& problem, Eigen::VectorXd& forces) {
-    forces += problem.attachment()->ground_force();
-    return {};
+    return {grid,
+            {.grain = choice.grain_diameter},
+            {.shear_modulus = shear_modulus,
+             .void_ratio = void_ratio,
+             .clock = scarp::TimeFunction({{0.0, 0.0}, {end, end * (up(high) - up(low)) / choice.rate}}),
+             .at_rest = rest}};
   }
 
   /// Volume average [Pa], over elements that have the mean of their corners.
   template <class Problem>
   static double mean_excess_pressure(Problem const& problem) {
     auto const& grid = problem.discretisation();
-    auto const pressures = problem.template attached<Attached>().field().pressures();
+    auto const pressures = problem.template attached<Water>().pressures();
     auto const volumes = grid.volumes(Eigen::VectorXd::Zero(grid.dof_count()));
     constexpr int corners = scarp::LinearOf<Element>::nodes;
     double sum = 0.0;

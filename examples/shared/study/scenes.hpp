@@ -14,7 +14,7 @@
 
 namespace fault_rupture {
 
-using RigidFooting = scarp::FrictionalFooting<scarp::LinearFrictional>;
+using FrictionalFooting = scarp::FrictionalFooting<scarp::LinearFrictional>;
 
 inline scarp::StripFooting footing_of(Choice const& choice) {
   double const own = choice.scene == Case::heavy ? 91e3 : 37e3;
@@ -26,7 +26,7 @@ inline scarp::StripFooting footing_of(Choice const& choice) {
 /// Applies the choice's options to a structure.
 inline void set(scarp::NoStructure&, Choice const&) {}
 inline void set(scarp::TiedFooting& structure, Choice const& choice) { structure.footing = footing_of(choice); }
-inline void set(RigidFooting& structure, Choice const& choice) {
+inline void set(FrictionalFooting& structure, Choice const& choice) {
   structure.footing = footing_of(choice);
   // Overlap of a millimetre under the heavy footing: small against any settlement, and soft enough for the solver.
   structure.interface = {.normal_stiffness = 1e8, .tangential_stiffness = 1e8, .friction = choice.base_friction};

@@ -52,7 +52,8 @@ class ErrorBudget : public NeverStops {
       : bounds_(bounds),
         sampling_(sampling),
         iterates_equations_(problem.points().means() != nullptr),
-        adds_up_work_(has_grid && !problem.has_attachment() && problem.executor().ranks() == 1) {
+        adds_up_work_(has_grid && !problem.has_attachment() && !problem.has_field() &&
+                      problem.executor().ranks() == 1) {
     bounds.validate();
     sampling.validate();
     int const points = problem.points().size();

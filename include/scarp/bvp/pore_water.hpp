@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/attached_field.hpp"
 #include "scarp/bvp/detail/corner_field.hpp"
 #include "scarp/bvp/detail/pore_boundaries.hpp"
 #include "scarp/bvp/detail/pore_flow.hpp"
@@ -259,7 +259,7 @@ template <class GridType, HydraulicProvider Flow>
 void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const {
   auto const& grid = field_.grid();
   Values const move = trial_.increment.head(grid.dof_count());
-  int const first = grid.dof_count();
+  int const first = static_cast<int>(trial_.increment.size()) - extra_dofs();
   std::vector<int> number(pressure_.size(), -1);
   for (std::size_t k = 0; k < boundaries_.unknowns().size(); ++k)
     number[detail::index(boundaries_.unknowns()[k])] = first + static_cast<int>(k);

@@ -64,12 +64,13 @@ void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, Overburden 
       middle->carried, middle->depth, middle->weight);
 }
 
+/// That of the ground below a structure.
 template <class Structure, class Grid>
-auto attached(Structure const& structure, Grid const& grid, double throw_to) {
-  if constexpr (requires { structure.attached(grid, throw_to); }) {
-    return structure.attached(grid, throw_to);
+auto field_of(Structure const& structure, Grid const& grid, double throw_to) {
+  if constexpr (requires { structure.field(grid, throw_to); }) {
+    return structure.field(grid, throw_to);
   } else {
-    return structure.attached(grid);
+    return NoAttachment{};
   }
 }
 
@@ -92,9 +93,9 @@ int extra_dofs(Attached const& attached) {
 namespace scarp {
 
 /// What stands on the ground: the edges where it wants nodes, its part of the mesh, loads, regions and what is
-/// attached, in stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves. attached(grid),
-/// or attached(grid, throw_to): what is attached may follow the throw [m]; then end(throw_to), where there is one, is
-/// the load factor up to which the bedrock rests after it. buoyancy(), where there is one, is that of the ground's
+/// attached, in stages of the load factor: from start() to 0 it is placed, from 0 on the fault moves. field(grid,
+/// throw_to), where there is one, is a field of the ground by the throw [m], such as pore water, and end(throw_to) the
+/// load factor up to which the bedrock rests after it. buoyancy(), where there is one, is that of the ground's
 /// water.
 template <class Structure, class Grid>
 concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid::ElementType>& mesh, Grid const& grid,
@@ -103,7 +104,7 @@ concept StandsOnGround = requires(Structure const& structure, Mesh<typename Grid
   structure.put_on(mesh);
   { structure.start() } -> std::same_as<double>;
   structure.add_loads(grid, 4e3, loads);
-  detail::attached(structure, grid, 1.0);
+  structure.attached(grid);
 };
 
 /// Level ground over a fault in the bedrock, with whatever stands on it. `Soil` is any provider whose initial states
@@ -226,8 +227,9 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   require_positive("throw", throw_to);
   Grid grid(mesh());
   detail::require_carried(soil, soil_sites(grid), [&](double depth) { return overburden(depth); });
-  auto attached = detail::attached(structure, grid, throw_to);
-  int const extra_dofs = detail::extra_dofs(attached);
+  auto attached = structure.attached(grid);
+  auto field = detail::field_of(structure, grid, throw_to);
+  int const extra_dofs = detail::extra_dofs(attached) + detail::extra_dofs(field);
   auto const moved = end() > throw_to ? TimeFunction({{0.0, 0.0}, {throw_to, throw_to}}) : TimeFunction::after(0.0);
   Constraints constraints = bedrock_constraints(grid.mesh(), fault, extra_dofs, moved);
   int const soil_region = region_number(grid.mesh(), "soil");
@@ -245,7 +247,7 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   structure.add_loads(grid, surcharge, loads);
   loads.add_dofs(grid.dof_count() + extra_dofs - static_cast<int>(loads.size()));
   return make_problem(std::move(grid), ground.surface_level(), structure.regions(Region{"soil", soil}),
-                      std::move(constraints), std::move(loads), executor, std::move(attached));
+                      std::move(constraints), std::move(loads), executor, std::move(attached), std::move(field));
 }
 
 #ifdef SCARP_PRECOMPILED

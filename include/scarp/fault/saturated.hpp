@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <utility>
 #include <vector>
 
@@ -47,7 +46,7 @@ struct RuptureTimes {
 /// Ground whose pores are full of water below a water table, and what stands on it. The scene's unit weight is that of
 /// dry ground; its soil needs the buoyancy(), with which its stresses are effective ones. The surface drains, below a
 /// structure too. Before the fault moves, and while a structure is placed, all excess pressures drain.
-/// \tparam Structure a `StandsOnGround` that attaches nothing to the mesh itself
+/// \tparam Structure a `StandsOnGround`
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {
   Flow flow{};                 ///< of the soil
@@ -61,9 +60,7 @@ struct Saturated : Structure {
   /// throw_to [m]
   /// \throws InputError for properties outside of their range
   template <class Grid>
-  PoreWater<Grid, Flow> attached(Grid const& grid, double throw_to) const {
-    static_assert(std::same_as<decltype(Structure::attached(grid)), NoAttachment>,
-                  "scarp: a structure that is attached to the mesh cannot stand on saturated ground yet");
+  PoreWater<Grid, Flow> field(Grid const& grid, double throw_to) const {
     double const surface = surface_level(grid.mesh());
     double const depth = surface - bottom_level(grid.mesh());
     double const diffusion = 2.0 * shear_modulus * detail::validated(flow).mobility(void_ratio);  // [m2/s]

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/attached_field.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
@@ -125,7 +125,7 @@ class FieldSeries : public NeverStops {
       displacement.insert(displacement.end(), moved.begin(), moved.end());
     }
     auto const at_elements = detail::element_fields(problem);
-    auto const attached = problem.attachment() ? problem.attachment()->nodal_fields() : std::vector<NodalField>{};
+    auto const attached = problem.field() ? problem.field()->nodal_fields() : std::vector<NodalField>{};
     VtuFields fields;
     fields.at_nodes.push_back({"displacement", dim, std::span<double const>(displacement), {}});
     for (auto const& [name, values] : attached)

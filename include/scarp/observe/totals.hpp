@@ -58,7 +58,7 @@ double generalised_reaction(Problem const& problem) {
   auto const& grid = problem.grid();
   Eigen::VectorXd forces;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem.balanced_stresses(), forces);
-  if (problem.has_field()) forces += problem.attachment()->ground_force();
+  if (problem.has_field()) forces += problem.field()->ground_force();
   double work = 0.0;
   for (Eigen::Index dof = 0; dof < forces.size(); ++dof)  // attached bodies come after its nodes
     work += problem.constraints().rate(static_cast<int>(dof)) * forces(dof);

@@ -124,7 +124,7 @@ Vector<Dim> Analysis<Dim>::reaction(std::string_view side) const {
   auto const& grid = problem_.grid();
   Eigen::VectorXd forces;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), problem_.balanced_stresses(), forces);
-  if (problem_.has_field()) forces += problem_.attachment()->ground_force();
+  if (problem_.has_field()) forces += problem_.field()->ground_force();
   forces -= external_.at(load_);
   Vector<dim> sum = Vector<dim>::Zero();
   for (int const node : grid.boundary_nodes(side)) sum += forces.template segment<dim>(dim * node);
@@ -142,8 +142,7 @@ std::string Analysis<Dim>::why(RunReport const& run) const {
     words += fmt::format(" at point {} (region {}, at {})", run.worst_point,
                          problem_.grid().regions()[detail::index(site.region)], listed(site.position, ", ", "{:.4g}"));
   }
-  if (run.weak_dof >= 0)
-    words += ", nothing holds " + describe_dof(problem_.grid(), run.weak_dof, problem_.attachment());
+  if (run.weak_dof >= 0) words += ", nothing holds " + problem_.describe_dof(run.weak_dof);
   return words;
 }
 

@@ -14,9 +14,8 @@
 namespace scarp {
 
 /// The displacement at which a linearised ground and what is attached to it balance the loads. The attachment has its
-/// own
-/// forces: contact that opens, closes or slides is followed here, where no material point is evaluated. Without
-/// attachment, and with a field, this is one linear solve.
+/// own forces: contact that opens, closes or slides is followed here, where no material point is evaluated. A field is
+/// part of the ground. Without bodies and loads this is one linear solve.
 template <int Dim>
 class LinearisedStep {
   using Problem = scarp::Problem<Dim>;
@@ -27,7 +26,7 @@ class LinearisedStep {
   /// accuracy: residual below which the attachment's forces need no further correction
   LinearisedStep(Problem& problem, double accuracy, LinearSolverFactory solver = sparse_lu)
       : problem_(problem), system_(problem.constraints(), std::move(solver)) {
-    if (problem.has_attachment() && !problem.has_field()) contact_.emplace(problem, system_, accuracy);
+    if (problem.has_attachment()) contact_.emplace(problem, system_, accuracy);
   }
   LinearisedStep(LinearisedStep const&) = delete;  // what follows contact refers to the system
   LinearisedStep& operator=(LinearisedStep const&) = delete;
@@ -39,7 +38,7 @@ class LinearisedStep {
     ground_.centre = increment;
     ground_.forces = unbalanced;
     if (contact_) ground_.forces -= problem_.attached_forces(increment);
-    if (problem_.has_field()) ground_.stiffness.own += problem_.attached_stiffness();
+    if (problem_.has_field()) ground_.stiffness.own += problem_.field_stiffness();
     Verdict const verdict = contact_ ? contact_->factorize(ground_) : system_.factorize(ground_.stiffness);
     is_held_ = verdict.acceptable();
     // A body that floats above its ground, as before its weight comes, is no fault yet: `solve` lets it down.

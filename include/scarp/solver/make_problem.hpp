@@ -47,15 +47,17 @@ MaterialPoints<Dim> make_points(Grid<Dim> const& grid, double surface_level, Reg
 
 /// The composition root: one discretisation, a material for each region, constraints and loads, as a problem that a
 /// solver can use. Regions are written as values, `make_problem(..., hana::make_tuple(Region{"soil", soil}))`.
+/// attached: a body or a load, and a field, any or none
 /// \throws InputError when the parts do not fit together
-template <class GridType, class Attached = NoAttachment, class... Materials>
+template <class GridType, class... Materials, class... Attached>
 EquilibriumProblem<GridType> make_problem(GridType grid, double surface_level,
                                           boost::hana::tuple<Region<Materials>...> const& regions,
                                           Constraints constraints, LoadHistory loads, Executor& executor,
-                                          Attached attached = {}) {
+                                          Attached... attached) {
   std::optional<MaterialPoints<GridType::dim>> points;
   executor.together([&] { points.emplace(make_points(grid, surface_level, regions, executor)); });
-  return {std::move(grid), std::move(*points), std::move(constraints), std::move(loads), executor, std::move(attached)};
+  return {std::move(grid),  std::move(*points), std::move(constraints),
+          std::move(loads), executor,           std::move(attached)...};
 }
 
 }  // namespace scarp

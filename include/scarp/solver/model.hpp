@@ -97,8 +97,8 @@ class SCARP_EXPORT Model {
   /// \throws InputError for a second one
   template <FieldAttachment Field>
   void attach(Field const& field) {
-    if (attached_) reject("a second field is attached to the model (it can have one): make a problem of your own");
-    attached_ = [field] { return std::make_unique<detail::AttachedPartOf<dim, Field>>(field); };
+    if (field_) reject("a second field is attached to the model (it can have one): make a problem of your own");
+    field_ = [field] { return std::make_unique<detail::AttachedFieldOf<dim, Field>>(field); };
   }
 
   /// Weight of all regions [N/m3], downwards along the last axis.
@@ -168,7 +168,7 @@ class SCARP_EXPORT Model {
   std::vector<Eigen::VectorXd> tractions_;
   LoadHistory later_;  ///< with amplitudes of their own
   std::optional<double> level_;
-  std::function<std::unique_ptr<detail::AttachedPart<dim>>()> attached_;
+  std::function<std::unique_ptr<detail::AttachedField<dim>>()> field_;
 };
 
 // Outside of the class, so that a library can contain them.
@@ -259,11 +259,11 @@ Problem<Dim> Model<Dim>::problem(Executor& executor) const {
   LoadHistory loads = later_;
   loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
   loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
-  auto attached = attached_ ? attached_() : nullptr;
+  detail::Attachments<dim> attached{nullptr, field_ ? field_() : nullptr};
   Constraints constraints = constraints_;
-  if (attached) {
-    constraints.add_dofs(attached->extra_dofs());
-    loads.add_dofs(attached->extra_dofs());
+  if (attached.field) {
+    constraints.add_dofs(attached.field->extra_dofs());
+    loads.add_dofs(attached.field->extra_dofs());
   }
   return {grid_->copy(), std::move(*points), std::move(constraints), std::move(loads), executor, std::move(attached)};
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/bvp/attached_field.hpp"
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/grid.hpp"
@@ -31,17 +32,17 @@ class SCARP_EXPORT Problem {
  public:
   static constexpr int dim = Dim;  ///< of the mesh
 
-  /// loads [N], shape (degrees of freedom of mesh and attachment); attached: null for the elements alone
+  /// loads [N], shape (degrees of freedom of mesh, body and field)
   /// \throws InputError for sizes that do not fit together
   Problem(std::unique_ptr<Grid<Dim>> grid, MaterialPoints<Dim> points, Constraints constraints, LoadHistory loads,
-          Executor& executor, std::unique_ptr<detail::AttachedPart<Dim>> attached = nullptr)
+          Executor& executor, detail::Attachments<Dim> attached = {})
       : attached_(std::move(attached)),
         grid_(detail::present(std::move(grid))),
         points_(std::move(points)),
         executor_(executor),
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
-        whole_(detail::WholeResidual::of(constraints_, has_field() ? grid_->dof_count() : constraints_.dof_count())),
+        whole_(detail::WholeResidual::of(constraints_, first_of_field())),
         regions_(*grid_, constraints_) {
     if (points_.size() != grid_->point_count())
       reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
@@ -50,52 +51,54 @@ class SCARP_EXPORT Problem {
     if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count())
       reject("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
              loads_.size(), constraints_.dof_count(), dof_count());
-    if (attached_) attached_->require_fit(*grid_, constraints_);
+    attached_.require_fit(*grid_, constraints_);
     set_load(0.0);
   }
   Problem(Problem const&) = delete;  // sessions and stiffnesses refer to it
   Problem& operator=(Problem const&) = delete;
 
-  /// Degrees of freedom of the mesh, then of what is attached.
-  int dof_count() const { return grid_->dof_count() + (attached_ ? attached_->extra_dofs() : 0); }
+  /// Degrees of freedom of the mesh, then of an attached body, then of a field.
+  int dof_count() const { return first_of_field() + attached_.field_dofs(); }
 
-  bool has_attachment() const { return attached_ != nullptr; }           ///< Whether something is attached to the mesh.
-  bool has_field() const { return attached_ && attached_->is_field(); }  ///< Whether that is a `FieldAttachment`.
-  detail::AttachedPart<Dim> const* attachment() const { return attached_.get(); }  ///< Of any type, or null.
+  bool has_attachment() const { return attached_.part != nullptr; }  ///< Whether a body or a load is attached.
+  bool has_field() const { return attached_.field != nullptr; }      ///< Whether a `FieldAttachment` is attached.
+  detail::AttachedField<Dim> const* field() const { return attached_.field.get(); }  ///< Of any type, or null.
   /// What is attached to the mesh. \throws InputError unless it is of this type
   template <class Part>
   Part const& attached() const {
-    auto const* found = dynamic_cast<detail::AttachedPartOf<Dim, Part> const*>(attached_.get());
-    if (!found) reject("what is attached to the mesh is requested as another type: take the one that was given");
-    return found->part();
+    if (auto const* found = attached_.template find<Part>()) return *found;
+    reject("what is attached to the mesh is requested as another type: take the one that was given");
   }
   int first_beside() const { return grid_->dof_count(); }  ///< First degree of freedom behind those of the mesh.
-  /// Size [m] of an attached body, of the mesh where it has none.
-  double length() const {
-    auto const own = attached_ ? attached_->length() : std::nullopt;
-    return own ? *own : extent<Dim>(grid_->nodes());
+  int first_of_field() const { return first_beside() + attached_.part_dofs(); }  ///< And of a body.
+  /// A degree of freedom in words.
+  std::string describe_dof(int dof) const {
+    bool const is_of_field = has_field() && dof >= first_of_field();
+    return is_of_field ? field()->describe(dof - first_of_field()) : scarp::describe_dof(*grid_, dof);
   }
-  /// Forces [N] of what is attached alone, at an increment [m], shape (dof_count); its trial state then belongs to it.
-  /// Whether they could result is that of the next evaluation.
+  /// Size [m] of an attached body, of the mesh where it has none.
+  double length() const { return attached_.length().value_or(extent<Dim>(grid_->nodes())); }
+  /// Forces [N] of a body or load at an increment [m], shape (dof_count); its trial state then belongs to it.
   Eigen::VectorXd attached_forces(Eigen::VectorXd const& increment) {
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dof_count());
-    if (attached_) static_cast<void>(attached_->add_forces(grid_->positions(), increment, forces));
+    if (has_attachment()) static_cast<void>(attached_.part->add_forces(grid_->positions(), increment, forces));
     return forces;
   }
   /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
-  SparseMatrix attached_stiffness() const { return assembled(&detail::AttachedPart<Dim>::add_stiffness); }
+  SparseMatrix attached_stiffness() const { return attached_.part_stiffness(dof_count()); }
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
-  SparseMatrix stick_stiffness() const { return assembled(&detail::AttachedPart<Dim>::add_stick_stiffness); }
+  SparseMatrix stick_stiffness() const { return attached_.stick_stiffness(dof_count()); }
+  /// Derivative of a field's forces [N/m] where they were requested last, shape (dof_count, dof_count).
+  SparseMatrix field_stiffness() const { return attached_.field_stiffness(dof_count()); }
 
   /// Forces are measured against the loads of a load factor; a step of an attached field ends there, or elsewhere.
   void set_load(double load, std::optional<double> field_at = {}) {
     load_now_ = loads_.at(load);
-    if (attached_) attached_->at(field_at.value_or(load));
+    if (has_field()) attached_.field->at(field_at.value_or(load));
   }
   /// First load factor beyond one where loads, motions or an attached field may turn; infinite beyond the last.
   double next_knot(double load) const {
-    double const next = std::min(loads_.next_knot(load), constraints_.next_knot(load));
-    return attached_ ? std::min(next, attached_->next_knot(load)) : next;
+    return std::min({loads_.next_knot(load), constraints_.next_knot(load), attached_.next_knot(load)});
   }
   Grid<Dim> const& grid() const { return *grid_; }               ///< Mesh and elements, committed.
   MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
@@ -176,6 +179,10 @@ class SCARP_EXPORT Problem {
 
   /// Largest of all parts' residuals of unbalanced forces [N], without unit, see `residuals`.
   double residual(Eigen::VectorXd const& unbalanced) const {
+    return std::max(force_residual(unbalanced), attached_.field_residual(unbalanced));
+  }
+  /// That of all parts but a field.
+  double force_residual(Eigen::VectorXd const& unbalanced) const {
     return std::max(
         {whole_.residual(unbalanced, load_now_), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
   }
@@ -188,14 +195,14 @@ class SCARP_EXPORT Problem {
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
     std::vector<PartResidual> parts{{"all", whole_.residual(unbalanced, load_now_)}};
     regions_.list(unbalanced, load_now_, parts);
-    if (attached_) parts.push_back({attached_->name(), residual_beside(unbalanced)});
+    if (has_attachment()) parts.push_back({"attached", residual_beside(unbalanced)});
+    if (has_field()) parts.push_back({field()->name(), attached_.field_residual(unbalanced)});
     return parts;
   }
 
-  /// Imbalance of a field, or of a body over its own loads, which reactions would hide (0 without loads).
+  /// Imbalance of a body over its own loads, which reactions would hide (0 without loads).
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
-    if (has_field()) return attached_->residual(unbalanced.tail(attached_->extra_dofs()));
-    return detail::residual_beside(unbalanced, load_now_, whole_.free_dofs, grid_->dof_count());
+    return detail::residual_beside(unbalanced, load_now_, whole_.free_dofs, first_beside(), first_of_field());
   }
 
   /// Whether all materials' tangents are the derivatives of their responses.
@@ -211,14 +218,14 @@ class SCARP_EXPORT Problem {
     require_evaluated("committed", increment);
     points_.commit();  // first, since it may throw
     forget();
-    if (attached_) attached_->commit(grid_->positions(), increment);
+    attached_.commit(grid_->positions(), increment);
     grid_->commit(of_nodes(increment));
   }
 
   /// \throws InputError for an attachment that cannot be saved
   void require_described() const {
     StateWriter writer;
-    if (attached_) attached_->write(writer);
+    attached_.write(writer);
   }
 
   /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.
@@ -227,17 +234,11 @@ class SCARP_EXPORT Problem {
     visit("discretisation", *self.grid_);
     visit("materials", self.points_);
     visit("largest_scale", self.whole_.largest_scale);
-    if (!self.attached_) return;
-    if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateWriter>) self.attached_->write(visit);
-    if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateReader>) self.attached_->read(visit);
+    self.attached_.members(self.attached_, visit);
   }
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
 
  private:
-  using Entries = std::vector<Eigen::Triplet<double>>;
-  SparseMatrix assembled(void (detail::AttachedPart<Dim>::*add)(Entries&) const) const {
-    return detail::assembled(attached_.get(), add, dof_count());
-  }
   void forget() { seen_ = evaluated_ = Eigen::VectorXd(); }
   void require_evaluated(std::string_view what, Eigen::VectorXd const& increment) const {
     if (evaluated_.size() == increment.size() && evaluated_ == increment) return;
@@ -268,18 +269,17 @@ class SCARP_EXPORT Problem {
     whole_.carried = 0.0;
     whole_.carry(evaluation.unbalanced);
     Eigen::VectorXd const of_elements = evaluation.unbalanced;
-    Verdict const verdict =
-        attached_ ? attached_->add_forces(grid_->positions(), increment, evaluation.unbalanced) : Verdict{};
+    Verdict const verdict = attached_.add_forces(grid_->positions(), increment, evaluation.unbalanced);
     if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
     whole_.carry(evaluation.unbalanced - of_elements);
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
-    if (attached_ || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
+    if (has_attachment() || has_field() || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
     if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable())
       evaluation.verdict = {Status::failed, Reason::not_finite};
   }
 
-  std::unique_ptr<detail::AttachedPart<Dim>> attached_;
+  detail::Attachments<Dim> attached_;
   std::unique_ptr<Grid<Dim>> grid_;
   MaterialPoints<Dim> points_;
   Executor const& executor_;

@@ -59,7 +59,7 @@ class WorkBalance {
     Snapshot() = default;
     Snapshot(Problem const& problem, double load)
         : positions(problem.grid().positions()), stresses(problem.balanced_stresses()) {
-      if (problem.has_attachment())
+      if (problem.has_attachment() || problem.has_field())
         reject(
             "the work of a problem with an attachment is requested (that of what is attached is not counted): leave it "
             "out");

@@ -345,21 +345,13 @@ struct Wrong : Disc {
 Packing<Wrong, Frictionless> packing;
 }  // namespace case_36
 
-// first: an attachment that is a field needs at(), next_knot()
+// first: an attachment that is a field needs
 namespace case_field {
 struct Wrong : FollowingPressure<> {
   static constexpr bool is_field = true;
 };
-auto const size = sizeof(detail::AttachedPartOf<2, Wrong>);
+auto const size = sizeof(detail::AttachedFieldOf<2, Wrong>);
 }  // namespace case_field
-
-// first: beside a field stands a load whose forces follow the nodes
-namespace case_beside_a_field {
-struct Wrong : FollowingPressure<> {
-  void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const { add_stiffness(entries); }
-};
-auto const size = sizeof(FieldWithLoad<Wrong, PoreWater<DefaultGrid<Quad4>, ConstantPermeability>>);
-}  // namespace case_beside_a_field
 
 // first: a CheckpointedRun watches all other observers
 namespace case_observers {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "scarp/bvp/attached_field.hpp"
 #include "scarp/bvp/default_integration.hpp"
-#include "scarp/bvp/field_with_load.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/pore_water.hpp"

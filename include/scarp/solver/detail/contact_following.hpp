@@ -45,6 +45,15 @@ class ContactFollowing {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
     body_.begin();
     Tried now = balance({increment, still, ground.unbalanced(increment, more), still}, 0.0);
+    // A field's equations are linear here: once they balance, they do so along every way.
+    if (problem_.has_field()) {
+      Way way;
+      Verdict verdict = factorize(ground);
+      if (!verdict.acceptable()) verdict = factorize(ground, problem_.stick_stiffness());
+      if (verdict.acceptable()) verdict = lay(way, ground, now, more);
+      if (!verdict.acceptable()) return verdict;
+      now = balance(way, 1.0);
+    }
     double const goal = std::max(accuracy_, 1e-3 * now.residual);
     Tried best = now;
     int fruitless = 0;
@@ -145,7 +154,7 @@ class ContactFollowing {
     Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
     body_.settle(now.increment, -of_ground, 0.1 * accuracy_);
     now.unbalanced = of_ground + problem_.attached_forces(now.increment);
-    now.residual = problem_.residual(now.unbalanced);
+    now.residual = problem_.force_residual(now.unbalanced);
     now.beside = problem_.residual_beside(now.unbalanced);
     return now;
   }

@@ -53,12 +53,13 @@ struct WholeResidual {
   }
 };
 
-/// |unbalanced| over |loads| of free degrees of freedom from the first one of attached bodies on; 0 without such loads.
+/// |unbalanced| over |loads| of free degrees of freedom of attached bodies, from `first` to before `end`; 0 without
+/// such loads.
 inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
-                              std::vector<int> const& free_dofs, int first) {
+                              std::vector<int> const& free_dofs, int first, int end) {
   double free = 0.0;
-  for (int const dof : free_dofs) free += dof < first ? 0.0 : unbalanced(dof) * unbalanced(dof);
-  double const scale = loads.tail(loads.size() - first).norm();
+  for (int const dof : free_dofs) free += dof < first || dof >= end ? 0.0 : unbalanced(dof) * unbalanced(dof);
+  double const scale = loads.segment(first, end - first).norm();
   return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
 }
 

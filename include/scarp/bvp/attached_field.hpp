@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <concepts>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scarp/bvp/attachment.hpp"
+#include "scarp/bvp/constraints.hpp"
+#include "scarp/bvp/grid.hpp"
+#include "scarp/core/error.hpp"
+#include "scarp/io/state_bits.hpp"
+
+namespace scarp {
+
+/// Values at all nodes of a mesh under a name, for files.
+struct NodalField {
+  std::string name;            ///< in files
+  std::vector<double> values;  ///< shape (nodes)
+};
+
+/// An `Attachment` whose degrees of freedom are a field over the mesh, such as the pressure of pore water, and no body:
+/// they are solved together with the displacements, and what is known of them belongs to the field itself. They are the
+/// last ones of the problem. is_field: true; at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor
+/// beyond one where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its
+/// own equations, relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words;
+/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed.
+template <class Part>
+concept FieldAttachment = Part::is_field &&
+    requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
+  {part.at(0.0)};
+  { constant.next_knot(0.0) } -> std::same_as<double>;
+  { constant.name() } -> std::convertible_to<std::string>;
+  { constant.residual(unbalanced) } -> std::same_as<double>;
+  { constant.describe(0) } -> std::convertible_to<std::string>;
+  { constant.nodal_fields() } -> std::same_as<std::vector<NodalField>>;
+  { constant.ground_force() } -> std::same_as<Eigen::VectorXd>;
+};
+
+namespace detail {
+
+template <class Part>
+concept NamesField = requires {
+  Part::is_field;
+};
+
+/// A `FieldAttachment` of any type.
+template <int Dim>
+class AttachedField {
+ public:
+  using Nodes = std::vector<Vector<Dim>>;
+  using Entries = std::vector<Eigen::Triplet<double>>;
+
+  virtual ~AttachedField() = default;
+  virtual int extra_dofs() const = 0;
+  virtual Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) = 0;
+  virtual void add_stiffness(Entries& entries) const = 0;
+  virtual void commit(Nodes const& nodes, Eigen::VectorXd const& increment) = 0;
+  virtual std::optional<double> thickness() const = 0;
+  virtual void at(double load) = 0;
+  virtual double next_knot(double load) const = 0;
+  virtual std::string name() const = 0;
+  virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
+  virtual std::string describe(int number) const = 0;
+  virtual std::vector<NodalField> nodal_fields() const = 0;
+  virtual Eigen::VectorXd ground_force() const = 0;
+  virtual void write(StateWriter& writer) const = 0;
+  virtual void read(StateReader& reader) = 0;
+
+  /// first: its first degree of freedom
+  /// \throws InputError for constraints of its degrees of freedom
+  void require_free(Constraints const& constraints, int first) const {
+    for (int number = 0; number < extra_dofs(); ++number) {
+      if (constraints.is_prescribed(first + number))
+        reject("{} is prescribed by a constraint (the field knows its own boundaries): give it there",
+               describe(number));
+    }
+  }
+};
+
+template <int Dim, class Part>
+class AttachedFieldOf final : public AttachedField<Dim> {
+  static_assert(Attachment<Part, Dim> && FieldAttachment<Part>,
+                "scarp: an attachment that is a field needs extra_dofs(), add_forces(), add_stiffness() and commit(), "
+                "at(), next_knot(), name(), residual(), describe(), nodal_fields() and ground_force()");
+
+ public:
+  using typename AttachedField<Dim>::Nodes, typename AttachedField<Dim>::Entries;
+
+  explicit AttachedFieldOf(Part part) : part_(std::move(part)) {}
+  Part const& part() const { return part_; }
+
+  int extra_dofs() const override { return part_.extra_dofs(); }
+  Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) override {
+    return part_.add_forces(nodes, increment, forces);
+  }
+  void add_stiffness(Entries& entries) const override { part_.add_stiffness(entries); }
+  void commit(Nodes const& nodes, Eigen::VectorXd const& increment) override { part_.commit(nodes, increment); }
+  std::optional<double> thickness() const override {
+    if constexpr (requires { part_.thickness(); }) return part_.thickness();
+    return std::nullopt;
+  }
+  void at(double load) override { part_.at(load); }
+  double next_knot(double load) const override { return part_.next_knot(load); }
+  std::string name() const override { return part_.name(); }
+  double residual(Eigen::VectorXd const& unbalanced) const override { return part_.residual(unbalanced); }
+  std::string describe(int number) const override { return part_.describe(number); }
+  std::vector<NodalField> nodal_fields() const override { return part_.nodal_fields(); }
+  Eigen::VectorXd ground_force() const override { return part_.ground_force(); }
+  void write(StateWriter& writer) const override { visit_attached(writer, part_); }
+  void read(StateReader& reader) override { visit_attached(reader, part_); }
+
+ private:
+  Part part_;
+};
+
+/// What is attached to a mesh: a body or a load, and a field; null where there is none.
+template <int Dim>
+struct Attachments {
+  std::unique_ptr<AttachedPart<Dim>> part{};
+  std::unique_ptr<AttachedField<Dim>> field{};
+
+  int part_dofs() const { return part ? part->extra_dofs() : 0; }
+  int field_dofs() const { return field ? field->extra_dofs() : 0; }
+  std::optional<double> length() const { return part ? part->length() : std::nullopt; }
+  /// First load factor beyond one where the field's courses may turn.
+  double next_knot(double load) const {
+    return field ? field->next_knot(load) : std::numeric_limits<double>::infinity();
+  }
+  /// unbalanced: shape (degrees of freedom of the problem); 0 without a field
+  double field_residual(Eigen::VectorXd const& unbalanced) const {
+    return field ? field->residual(unbalanced.tail(field->extra_dofs())) : 0.0;
+  }
+
+  /// \throws InputError for another thickness than the mesh's, and constraints of a field's degrees of freedom
+  void require_fit(Grid<Dim> const& grid, Constraints const& constraints) const {
+    if (part) require_thickness(grid, part->thickness());
+    if (!field) return;
+    require_thickness(grid, field->thickness());
+    field->require_free(constraints, grid.dof_count() + part_dofs());
+  }
+  Verdict add_forces(std::vector<Vector<Dim>> const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) {
+    Verdict const of_part = part ? part->add_forces(nodes, increment, forces) : Verdict{};
+    Verdict const of_field = field ? field->add_forces(nodes, increment, forces) : Verdict{};
+    return of_part.acceptable() ? of_field : of_part;
+  }
+  // Of the forces that were requested last, shape (size, size) [N/m].
+  Eigen::SparseMatrix<double> part_stiffness(int size) const {
+    return assembled(part.get(), &AttachedPart<Dim>::add_stiffness, size);
+  }
+  Eigen::SparseMatrix<double> stick_stiffness(int size) const {
+    return assembled(part.get(), &AttachedPart<Dim>::add_stick_stiffness, size);
+  }
+  Eigen::SparseMatrix<double> field_stiffness(int size) const {
+    return assembled(field.get(), &AttachedField<Dim>::add_stiffness, size);
+  }
+  void commit(std::vector<Vector<Dim>> const& nodes, Eigen::VectorXd const& increment) {
+    if (part) part->commit(nodes, increment);
+    if (field) field->commit(nodes, increment);
+  }
+  /// \throws InputError for one that cannot be saved
+  void write(StateWriter& writer) const {
+    if (part) part->write(writer);
+    if (field) field->write(writer);
+  }
+  template <class Self, class Visit>
+  static void members(Self& self, Visit& visit) {
+    if constexpr (std::same_as<Visit, StateWriter>) {
+      self.write(visit);
+    } else if constexpr (std::same_as<Visit, StateReader>) {
+      if (self.part) self.part->read(visit);
+      if (self.field) self.field->read(visit);
+    }
+  }
+
+  /// Null where there is none of this type.
+  template <class Part>
+  Part const* find() const {
+    if constexpr (NamesField<Part>) {
+      auto const* found = dynamic_cast<AttachedFieldOf<Dim, Part> const*>(field.get());
+      return found ? &found->part() : nullptr;
+    } else {
+      auto const* found = dynamic_cast<AttachedPartOf<Dim, Part> const*>(part.get());
+      return found ? &found->part() : nullptr;
+    }
+  }
+  /// \throws InputError for a second one of a kind
+  template <class Part>
+  void add(Part attached) {
+    if constexpr (std::same_as<Part, NoAttachment>) {
+      return;
+    } else if constexpr (NamesField<Part>) {
+      if (field) reject("a second field is attached to the mesh (it can have one): leave one out");
+      field = std::make_unique<AttachedFieldOf<Dim, Part>>(std::move(attached));
+    } else {
+      if (part) reject("a second body or load is attached to the mesh (it can have one): leave one out");
+      part = std::make_unique<AttachedPartOf<Dim, Part>>(std::move(attached));
+    }
+  }
+};
+
+}  // namespace detail
+
+}  // namespace scarp
