@@ -179,9 +179,10 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     return scarp::PackingSeries(folder, probe, point, to, {0.0, 0.25, 0.5, 1.0}, measure);
   };
   auto budget = error_budget(choice, scene, problem, at(choice.probe_a_x, choice.probe_a_y));
-  auto water = water_log(folder, scene, depth, start);
+  std::optional<decltype(water_log(folder, scene, depth, start))> water;  // on the root rank, which writes files
   scarp::StopSignal stop;  // on every rank: one that died of a signal would take the others with it
   scarp::OnRootRank observers(executor, [&] {
+    water.emplace(water_log(folder, scene, depth, start));
     return scarp::Observers(
         std::ref(*takeover), scarp::FieldSeries(folder, {.to = to, .count = choice.frames, .unit = depth}),
         scarp::SurfaceLog(folder / "surface.csv", to, profiles, depth, start),
@@ -189,7 +190,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         scarp::RveProbe(folder / "probe_B.csv", at(choice.probe_b_x, choice.probe_b_y), measure, start),
         packings_of("A", at(choice.probe_a_x, choice.probe_a_y)),
         packings_of("B", at(choice.probe_b_x, choice.probe_b_y)),
-        footing_log(folder, scene.structure, to, profiles, depth, start), std::ref(water),
+        footing_log(folder, scene.structure, to, profiles, depth, start), std::ref(*water),
         scarp::ConvergenceLog(folder / "convergence.csv", measure, start), scarp::Progress(to, measure, begun.name),
         scarp::DistortionWarning<2>([&](auto const& worst) {
           examples::print(
@@ -230,7 +231,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
       examples::print(stderr, "{}{}\n", begun.name, stages.trouble());
     }
     auto json = summary(choice, scene, problem, notes, reaction, report);
-    water.add_to(json);
+    water->add_to(json);
     json["run"] = examples::json_of(begun.folder->record());
     auto const written = [&](SensitivityResults const& sensitivity) {
       auto parts = budget.parts();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks THREADS LENGTH [FOLDER [ATTEMPTS]]`.
-// Prints the bits of the result and what each rank holds. Points look LENGTH [m] around themselves, 0: they are local. With a folder it
-// saves checkpoints there after every attempt and goes on from them; with a number of attempts it stops after so many.
+// Prints the bits of the result and what each rank holds. Points look LENGTH [m] around themselves, 0: they are local; "wet": they are,
+// and water fills their pores. With a folder it saves checkpoints there after every attempt and goes on from them; with a number of
+// attempts it stops after so many.
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -9,7 +10,9 @@
 
 #include <bit>
 #include <cstdint>
+#include <string_view>
 
+#include "scarp/fault/saturated.hpp"
 #include "scarp/observe/observers.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/run/checkpointed_run.hpp"
@@ -80,7 +83,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   int const threads = std::atoi(argv[1]);
-  double const length = std::atof(argv[2]);
+  bool const wet = std::string_view(argv[2]) == "wet";
+  double const length = wet ? 0.0 : std::atof(argv[2]);
   scarp::CheckpointFiles files;
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -90,7 +94,19 @@ int main(int argc, char** argv) {
   }
   int const attempts = argc > 4 ? std::atoi(argv[4]) : 1000;
   auto const& ground = samples::sandy_ground();
-  if (length == 0.0) {
+  if (wet) {
+    constexpr double void_ratio = 0.7;
+    scarp::FaultScene<samples::Sand, scarp::Saturated<scarp::NoStructure>> scene;
+    scene.soil = ground.soil;
+    scene.ground = ground.ground;
+    scene.unit_weight = ground.unit_weight + scarp::Water{}.lift(void_ratio);
+    scene.throw_to = ground.throw_to;
+    scene.solver = ground.solver;
+    scene.structure.flow = scarp::KozenyCarman::of_conductivity(1e-4, void_ratio);
+    scene.structure.void_ratio = void_ratio;
+    scene.structure.shear_modulus = 1e7;
+    rupture(scene, threads, std::move(files), attempts);
+  } else if (length == 0.0) {
     rupture(ground, threads, std::move(files), attempts);
   } else {
     scarp::FreeFieldFault<scarp::Nonlocal<samples::Sand>> scene;

@@ -37,7 +37,7 @@ def run(ranks, *arguments, resumes=0):
     return done.stdout
 
 
-for length in (0, 40):  # [m], of points that look around themselves
+for length in (0, 40, "wet"):  # [m], of points that look around themselves; in water
     answers = {(ranks, threads): run(ranks, threads, length) for ranks, threads in ((1, 1), (2, 1), (3, 1), (2, 2))}
     whole = answers[1, 1]
     if len(set(answers.values())) != 1 or not whole.startswith("ok hash"):

@@ -111,13 +111,12 @@ def _program(keywords: Dict[str, Any]) -> tuple[str, str]:
     """Name, and words that build it: elements, devices and water have programs of their own."""
     if keywords.get("device") == "none":
         keywords.pop("device")
-    own = {"element": "{}", "device": "device", "water_table": "water"}
+    own = {"water_table": "water", "element": "{}", "device": "device"}
     chosen = [key for key in own if keywords.get(key) is not None and (key, keywords[key]) != ("element", "tri3")]
-    if len(chosen) > 1:
+    if len(chosen) > 1 and "device" in chosen:
         raise ValueError(f"{' and '.join(chosen)} are given (no program has both): leave one out")
-    for key in chosen:
-        return "fault_rupture_" + own[key].format(keywords[key]), f"fault_rupture --{key.replace('_', '-')} {keywords[key]}"
-    return "fault_rupture", "fault_rupture"
+    name = "_".join(["fault_rupture", *(own[key].format(keywords[key]) for key in chosen)])
+    return name, " ".join(["fault_rupture", *(f"--{key.replace('_', '-')} {keywords[key]}" for key in chosen)])
 
 
 def _given(options: Mapping[str, Any], **others: str) -> tuple[str, Dict[str, List[str]]]:
