@@ -9,11 +9,11 @@ import scarp_figures as figures
 
 def rupture(folder):
     """Deviatoric strain on the deforming mesh over the run."""
-    run = field_figures.Strains(folder)
+    run = field_figures.Steps(folder)
     depth = layer_depth(run.grids[0], run.paths[0])
     summary, surface = figures.read_summary(folder), surface_level(run.grids[0], run.paths[0])
     blocks = [footing_figures.corners(folder, summary, throw, surface) for throw in run.times]
-    return run.animate(lambda throw: f"h/H = {throw:.4f}, throw {throw * depth:.2f} m", blocks)
+    return run.animate_strain(lambda throw: f"h/H = {throw:.4f}, throw {throw * depth:.2f} m", blocks)
 
 
 def soil_of(grid, path):

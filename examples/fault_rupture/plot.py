@@ -249,7 +249,7 @@ def figures_of(folder):
     if (folder / "footing.csv").exists():
         chosen |= {"footing": footing_figures.footing, "base_pressure": footing_figures.base_pressure}
     if (folder / "water.csv").exists():
-        chosen |= {"excess_pressure": water_figures.excess_pressure, "water": water_figures.water}
+        chosen |= {"excess_pressure": water_figures.excess_pressure, "pressures": water_figures.pressures, "water": water_figures.water}
     return chosen
 
 

@@ -3,16 +3,34 @@
 
 import numpy as np
 import scarp_figures as figures
-from field_figures import outline, read_plane, triangles_of
+from field_figures import Steps, outline, read_plane, triangles_of
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.tri import Triangulation
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
 
+def end_of_throw(folder):
+    """Load factor from which the bedrock rests."""
+    return figures.read_csv(folder / "water.csv", ["throw_over_depth"])["throw_over_depth"][-1]
+
+
+def pressures(folder):
+    """Excess pore pressure of the elements over the run, an animation."""
+    throw = end_of_throw(folder)
+    run = Steps(folder, lambda grid, path: 1e-3 * figures.field(grid.at_nodes, "excess_pore_pressure", path)[grid.cells].mean(axis=1))
+    most = max(*(np.abs(values).max() for values in run.values), 1e-3)
+
+    def title(time, values):
+        rested = ", water drains" if time > throw * (1.0 + 1e-6) else ""
+        return f"h/H = {min(time, throw):.4f}{rested}: {values.min():.3g} to {values.max():.3g} kPa"
+
+    return run.animate(title, Normalize(-most, most), "excess pore pressure [kPa]", colours="RdBu")
+
+
 def excess_pressure(folder):
     """Excess pore pressure over the ground at half of the throw, at its end, and at the end of the run."""
-    throw = figures.read_csv(folder / "water.csv", ["throw_over_depth"])["throw_over_depth"][-1]
+    throw = end_of_throw(folder)
     series = [step for step in figures.read_pvd(folder / "fields.pvd") if step[0] > 0.0]
     places = [np.argmin([abs(time - wanted) for time, _ in series]) for wanted in (throw / 2, throw, 2 * throw)]
     grids = [(series[k], read_plane(series[k][1])) for k in np.unique(places)]

@@ -102,10 +102,11 @@ def areas(corners):
     return 0.5 * np.abs(np.sum(corners[..., 0] * after[..., 1] - after[..., 0] * corners[..., 1], axis=1))
 
 
-class Strains:
-    """Deviatoric strain over a run, step by step: a frame for each file of the series, or for as many as are bearable."""
+class Steps:
+    """A quantity of the elements over a run, step by step: a frame for each file of the series, or for as many as are bearable."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, quantity=deviatoric_percent):
+        """quantity(grid, path): values of the cells"""
         series = [step for step in figures.read_pvd(folder / "fields.pvd") if step[0] >= 0.0]
         if len(series) < 2:
             raise figures.InputError(f"'{folder / 'fields.pvd'}' lists no two steps (nothing has moved yet): let it run on")
@@ -113,30 +114,36 @@ class Strains:
         self.times = [time for time, _ in chosen]
         self.paths = [path for _, path in chosen]
         self.grids = [read_plane(path) for path in self.paths]
-        self.strains = [deviatoric_percent(grid, path) for grid, path in zip(self.grids, self.paths)]
+        self.values = [quantity(grid, path) for grid, path in zip(self.grids, self.paths)]
 
-    def animate(self, title, blocks=None):
-        """title(time): first words of the title of a frame; blocks: corners of a body in each frame, shape (4, 2), or None"""
+    def animate_strain(self, title, blocks=None):
+        """title(time): first words of the title of a frame; blocks: as of animate()"""
+        norm = PowerNorm(0.5, 0.0, colour_limit(self.values[-1]))  # the young band is faint beside the old one
+        return self.animate(lambda time, strain: f"{title(time)}, largest strain {np.nanmax(strain):.3g} %", norm,
+                            "deviatoric strain [%],\nsquare-root scale", blocks)
+
+    def animate(self, title, norm, label, blocks=None, colours=STRAIN_COLOURS):
+        """title(time, values): that of a frame; blocks: corners of a body in each frame, shape (4, 2), or None"""
         blocks = blocks or [None] * len(self.grids)
         low, high = (edge([np.asarray(edge(grid.points, axis=0)) for grid in self.grids], axis=0) for edge in (np.min, np.max))
         high[1] = max([high[1], *(block[:, 1].max() for block in blocks if block is not None)])
         margin = 0.02 * (high - low)[0]
         shape = np.clip((high - low)[1] / (high - low)[0], 0.1, 1.0)
         fig, axes = plt.subplots(figsize=(8.0, 1.3 + 6.4 * shape), dpi=100)
-        norm = PowerNorm(0.5, 0.0, colour_limit(self.strains[-1]))  # the young band is faint beside the old one
-        cells = draw_cells(axes, self.grids[0], self.strains[0], norm, edge=0.2)
+        cells = draw_cells(axes, self.grids[0], self.values[0], norm, edge=0.2)
+        cells.set_cmap(colours)
         rim = axes.add_collection(LineCollection(outline(self.grids[0]), colors=BLACK, linewidths=0.8))
         axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), xlabel="x [m]", ylabel="y [m]")
-        fig.colorbar(cells, ax=axes, label="deviatoric strain [%],\nsquare-root scale", extend="max", aspect=12)
+        fig.colorbar(cells, ax=axes, label=label, extend="max" if norm.vmin == 0.0 else "neither", aspect=12)
         body = None if blocks[0] is None else axes.add_patch(figures.block(blocks[0]))
         frames = []
-        for time, grid, strain, block in zip(self.times, self.grids, self.strains, blocks):
+        for time, grid, values, block in zip(self.times, self.grids, self.values, blocks):
             cells.set_verts(grid.points[grid.cells])
-            cells.set_array(strain)
+            cells.set_array(values)
             rim.set_segments(outline(grid))
             if body is not None:
                 body.set_xy(block)
-            axes.set_title(f"{title(time)}, largest strain {np.nanmax(strain):.3g} %", loc="left")
+            axes.set_title(title(time, values), loc="left")
             fig.canvas.draw()
             frames.append(Image.fromarray(np.asarray(fig.canvas.buffer_rgba())[..., :3].copy()))
             fig.set_layout_engine("none")  # nothing moves from the first frame on
@@ -222,7 +229,7 @@ def deformation(folder):
 
 
 def strain(folder):
-    return Strains(folder).animate(lambda time: f"Load factor {time:.4g}")
+    return Steps(folder).animate_strain(lambda time: f"Load factor {time:.4g}")
 
 
 def stress_crosses(folder):

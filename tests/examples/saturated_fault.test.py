@@ -86,8 +86,8 @@ expect(told("packings")["water"]["after_the_throw"]["excess_pressure_min"] < -1e
 done = subprocess.run([sys.executable, str(PLOT), str(pathlib.Path(scratch.name, "footing"))], capture_output=True, text=True,
                       env={**os.environ, "MPLBACKEND": "Agg"})
 expect(done.returncode == 0, done.stderr)
-for name in ("excess_pressure", "water"):
-    expect(pathlib.Path(scratch.name, "footing", "figures", f"{name}.png").stat().st_size > 10_000, f"no figure {name}")
+for name in ("excess_pressure.png", "pressures.gif", "water.png"):
+    expect(pathlib.Path(scratch.name, "footing", "figures", name).stat().st_size > 10_000, f"no figure {name}")
 
 for program, options, said in ((DRY, [*SOIL, "--water-table", 0], "which builds fault_rupture_water"), (WET, [*SOIL, "--water-table", 2e3], "out of range"), (WET, [*SOIL, "--water-table", 30], "all of it dry"),
                                (WET, [*SOIL, "--drain", 5], "requires --water-table"),
