@@ -53,7 +53,9 @@ struct NodalField {
 /// at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor
 /// beyond one where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its
 /// own equations, relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words;
-/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed.
+/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed;
+/// time_error(), where it has one: estimated error in time of the step whose forces were requested last, over what is
+/// allowed.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -91,6 +93,7 @@ class AttachedPart {
   virtual bool is_field() const = 0;
   virtual void at(double load) = 0;
   virtual double next_knot(double load) const = 0;
+  virtual double time_error() const = 0;  ///< 0 for what estimates none
   virtual std::string name() const = 0;
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;  ///< of a field
   virtual std::string describe(int number) const = 0;
@@ -168,6 +171,10 @@ class AttachedPartOf final : public AttachedPart<Dim> {
   double next_knot(double load) const override {
     if constexpr (is_a_field) return part_.next_knot(load);
     return std::numeric_limits<double>::infinity();
+  }
+  double time_error() const override {
+    if constexpr (requires { part_.time_error(); }) return part_.time_error();
+    return 0.0;
   }
   std::string name() const override {
     if constexpr (is_a_field) return part_.name();

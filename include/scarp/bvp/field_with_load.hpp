@@ -73,6 +73,8 @@ class FieldWithLoad {
   // What a field needs.
   void at(double load) { field_.at(load); }
   double next_knot(double load) const { return field_.next_knot(load); }
+  double time_error() const requires requires(Field const& field) { field.time_error(); }
+  { return field_.time_error(); }  ///< of the field's last step, over what is allowed
   std::string name() const { return field_.name(); }
   /// Of the field's own equations, relative to its own measure.
   double residual(Values const& unbalanced) const { return field_.residual(unbalanced); }
