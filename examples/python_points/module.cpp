@@ -252,7 +252,7 @@ PYBIND11_MODULE(_points, module) {
   });
   module.def("loads", [](py::buffer const& bytes) { return load(std::string_view(bytes_of(bytes))); });
   module.attr("statuses") = names_up_to<scarp::Status::failed>();
-  module.attr("reasons") = names_up_to<scarp::Reason::too_few_steps>();
+  module.attr("reasons") = names_up_to<scarp::Reason::time_error>();
   static_cast<py::class_<Points<2>>>(module.attr("Points"))
       .def(
           "picture", [](Points<2>& self, int point) { return picture(self.now(), point); }, py::arg("point"),

@@ -338,14 +338,15 @@ void bind(py::module_& module, std::string const& suffix) {
            })
       .def("water",
            [](Own& self, double shear_modulus, double conductivity, double grain, double void_ratio,
-              double bulk_modulus, std::optional<double> table, Knots const& clock, Sides const& drained,
-              py::dict const& pressures, py::dict const& inflows) {
+              double bulk_modulus, std::optional<double> table, std::optional<double> largest_time_error,
+              Knots const& clock, Sides const& drained, py::dict const& pressures, py::dict const& inflows) {
              attach_water(self.now(), {.shear_modulus = shear_modulus,
                                        .conductivity = conductivity,
                                        .grain = grain,
                                        .void_ratio = void_ratio,
                                        .bulk_modulus = bulk_modulus,
                                        .table = table,
+                                       .largest_time_error = largest_time_error,
                                        .clock = course(clock).value_or(scarp::TimeFunction()),
                                        .drained = drained,
                                        .pressures = water_boundaries(pressures),

@@ -36,8 +36,10 @@ bool attached_to(scarp::Model<GridType::dim>& model, WaterOptions const& options
         start);
   scarp::Water const water{.bulk_modulus = options.bulk_modulus};
   EitherFlow const flow{options.grain != 0.0, {options.conductivity, water}, {.grain = options.grain, .water = water}};
-  scarp::PoreWaterSettings settings{
-      .shear_modulus = options.shear_modulus, .void_ratio = options.void_ratio, .clock = options.clock};
+  scarp::PoreWaterSettings settings{.shear_modulus = options.shear_modulus,
+                                    .void_ratio = options.void_ratio,
+                                    .clock = options.clock,
+                                    .largest_time_error = options.largest_time_error};
   if (options.table) settings.at_rest = scarp::WaterAtRest{.level = *options.table};
   scarp::PoreWater attached(*grid, flow, settings);
   for (auto const& side : options.drained) attached.drain({side});

@@ -25,7 +25,8 @@ struct WaterOptions {
   double void_ratio = 0.7;        ///< at the start
   double bulk_modulus = 2.2e9;    ///< of the water [Pa]
   std::optional<double> table{};  ///< height of the water table [m], for water that cavitates
-  scarp::TimeFunction clock{};    ///< [s] over the load factor
+  std::optional<double> largest_time_error{};  ///< of one step [Pa]
+  scarp::TimeFunction clock{};                 ///< [s] over the load factor
   std::vector<std::string> drained{};
   std::vector<WaterBoundary> pressures{};
   std::vector<WaterBoundary> inflows{};

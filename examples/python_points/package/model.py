@@ -119,7 +119,8 @@ class Model:
 
     def water(self, shear_modulus: float, clock: Amplitude, conductivity: float = 0.0, grain: float = 0.0, void_ratio: float = 0.7,
               bulk_modulus: float = 2.2e9, drained: Sides = (), pressures: Optional[Mapping[str, Any]] = None,
-              inflows: Optional[Mapping[str, Any]] = None, table: Optional[float] = None) -> None:
+              inflows: Optional[Mapping[str, Any]] = None, table: Optional[float] = None,
+              largest_time_error: Optional[float] = None) -> None:
         """Pore water that fills the pores of all elements and flows through them. Stresses of materials are effective ones; weight is that of which
         water carries nothing: below the water table give the buoyant one. Other boundaries than those that are named are impermeable.
 
@@ -143,6 +144,9 @@ class Model:
             By boundary: an excess pressure [Pa] or an inflow [m/s], or a tuple of it and its amplitude.
         table : float
             Height [m] of the water table: the ground above it has no water, and below it water cavitates at -100 kPa over the air's pressure.
+        largest_time_error : float
+            Of one step in any pressure [Pa], estimated: it sizes the steps, so that a clock needs no knots between its ends. Sudden loads are
+            followed in short steps; let `Analysis` have a `smallest` of 1e-9.
 
         Examples
         --------
@@ -159,7 +163,8 @@ class Model:
         True
         """
         self._do("water", float(shear_modulus), float(conductivity), float(grain), float(void_ratio), float(bulk_modulus),
-                 None if table is None else float(table), _knots(clock), _names(drained), _water_boundaries(pressures), _water_boundaries(inflows))
+                 None if table is None else float(table), None if largest_time_error is None else float(largest_time_error),
+                 _knots(clock), _names(drained), _water_boundaries(pressures), _water_boundaries(inflows))
 
     def set_surface_level(self, height: float) -> None:
         """Height [m] from which depths are measured, by default that of the highest node."""

@@ -29,7 +29,9 @@ struct NodalField {
 /// last ones of the problem. is_field: true; at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor
 /// beyond one where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its
 /// own equations, relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words;
-/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed.
+/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed;
+/// time_error(), where it has one: estimated error in time of the step whose forces were requested last, over what is
+/// allowed.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -64,6 +66,7 @@ class AttachedField {
   virtual std::optional<double> thickness() const = 0;
   virtual void at(double load) = 0;
   virtual double next_knot(double load) const = 0;
+  virtual double time_error() const = 0;  ///< 0 for what estimates none
   virtual std::string name() const = 0;
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
   virtual std::string describe(int number) const = 0;
@@ -107,6 +110,10 @@ class AttachedFieldOf final : public AttachedField<Dim> {
   }
   void at(double load) override { part_.at(load); }
   double next_knot(double load) const override { return part_.next_knot(load); }
+  double time_error() const override {
+    if constexpr (requires { part_.time_error(); }) return part_.time_error();
+    return 0.0;
+  }
   std::string name() const override { return part_.name(); }
   double residual(Eigen::VectorXd const& unbalanced) const override { return part_.residual(unbalanced); }
   std::string describe(int number) const override { return part_.describe(number); }

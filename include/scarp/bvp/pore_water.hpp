@@ -3,7 +3,6 @@
 
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "scarp/bvp/detail/corner_field.hpp"
 #include "scarp/bvp/detail/pore_boundaries.hpp"
 #include "scarp/bvp/detail/pore_flow.hpp"
+#include "scarp/bvp/detail/time_error.hpp"
 #include "scarp/bvp/detail/vapour.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/bvp/pore_water_settings.hpp"
@@ -113,6 +113,7 @@ class PoreWater {
   /// \throws InputError for a clock that goes back, time in impermeable ground, and inflow without an outlet
   void at(double load);
   double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
+  double time_error() const { return trial_.time_error; }  ///< of the last evaluated step, over `largest_time_error`
   std::string name() const { return "water"; }
   /// Volumes that are not balanced, over those displaced in the step by strain, flow, vapour and the changes of
   /// pressure over the shear modulus, or a thousandth of the most of any step before, Euclidean norms.
@@ -133,8 +134,8 @@ class PoreWater {
   }
 
   void after_loading() { step_.is_known = false; }  ///< The next step computes its matrices anew.
-  SCARP_MEMBERS_EXCEPT((settings_, boundaries_, vapour_, scale_, step_, trial_), field_, flow_, pressure_, left_, then_,
-                       most_displaced_)
+  SCARP_MEMBERS_EXCEPT((settings_, boundaries_, vapour_, scale_, step_, trial_), field_, flow_, time_error_, pressure_,
+                       left_, then_, most_displaced_)
 
  private:
   /// What one step has in common.
@@ -149,10 +150,11 @@ class PoreWater {
     Values increment, of_ground, pressure, left;
     Values growth;  ///< of the points' volumes, over those at the start of the step
     std::vector<VoigtStress<dim>> stresses;
-    double displaced = 0.0;
+    double displaced = 0.0, time_error = 0.0;
   };
 
   static auto view(std::vector<double> const& values) { return detail::viewed(values); }
+  Values change_of_unknowns() const { return (trial_.pressure - view(pressure_))(boundaries_.unknowns()); }
   void evaluate(Values const& increment);
   void prescribe(std::vector<int> const& corners, double pressure,
                  TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
@@ -165,6 +167,7 @@ class PoreWater {
   detail::PoreFlow<Field, Flow> flow_;
   detail::PoreBoundaries boundaries_;
   std::optional<detail::Vapour> vapour_;
+  detail::TimeError time_error_;
   double scale_ = 0.0;
   std::vector<double> pressure_;  ///< of the corners, excess [Pa]
   std::vector<double> left_;      ///< by which the corners' shares have outgrown their water since the start [m3]
@@ -180,15 +183,10 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
       field_(std::move(grid)),
       flow_(field_, flow, settings.void_ratio),
       boundaries_(field_.count()),
+      time_error_(settings.largest_time_error),
+      scale_(field_.over_mean_size(settings.shear_modulus)),
       pressure_(detail::index(field_.count()), 0.0),
       left_(pressure_.size(), 0.0) {
-  double size = 0.0;
-  double cells = 0.0;
-  field_.for_each_cell([&](auto const& cell) {
-    size += std::sqrt(cell.squared_size);
-    cells += 1.0;
-  });
-  scale_ = settings.shear_modulus * cells / size;
   if (!settings.at_rest) return;
   auto const dry = detail::above(field_, settings.at_rest->level);
   prescribe(dry.corners, 0.0);
@@ -232,6 +230,7 @@ void PoreWater<GridType, Flow>::evaluate(Values const& increment) {
   trial_.pressure = step_.given;
   trial_.pressure(boundaries_.unknowns()) =
       view(pressure_)(boundaries_.unknowns()) + scale_ * increment.tail(extra_dofs());
+  trial_.time_error = time_error_.of(change_of_unknowns(), step_.end - then_);
   Values const at_points = field_.shapes() * trial_.pressure;
   std::vector<Gradient<dim>> gradients(detail::index(grid.point_count()));
   grid.gradients(move, gradients);
@@ -288,6 +287,7 @@ void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>
 template <class GridType, HydraulicProvider Flow>
 void PoreWater<GridType, Flow>::commit(std::vector<Vector<dim>> const&, Values const& increment) {
   if (trial_.increment.size() != increment.size() || trial_.increment != increment) evaluate(increment);
+  time_error_.commit(change_of_unknowns(), step_.end - then_);
   flow_.grow(trial_.growth);
   pressure_.assign(trial_.pressure.begin(), trial_.pressure.end());
   left_.assign(trial_.left.begin(), trial_.left.end());

@@ -34,7 +34,8 @@ enum class Reason : std::uint8_t {
   singular_system,     ///< the linear system could not be factorised
   step_too_small,      ///< cutting the load step went below its smallest size
   interrupted,         ///< stopped from outside
-  too_few_steps        ///< one DEM step strains beyond its limit: the plan, or the most steps, are too few
+  too_few_steps,       ///< one DEM step strains beyond its limit: the plan, or the most steps, are too few
+  time_error           ///< the estimated error of a time step is larger than allowed
 };
 
 /// A status and its reason.
@@ -80,6 +81,7 @@ constexpr std::string_view name(Reason reason) {
     case Reason::step_too_small: return "step_too_small";
     case Reason::interrupted: return "interrupted";
     case Reason::too_few_steps: return "too_few_steps";
+    case Reason::time_error: return "time_error";
   }
   return "unknown";
 }

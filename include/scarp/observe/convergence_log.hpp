@@ -98,6 +98,7 @@ class ConvergenceLog : public NeverStops {
       for (auto const& part : report.parts) parts.add(part.name, part.value);
       line.add("residuals", parts);
     }
+    if (report.time_error > 0.0) line.add("time_error", report.time_error);
     line.add("max_displacement_gradient", report.max_displacement_gradient).add("condition", report.condition);
     line.add("largest_gradient", report.max_displacement_gradient);  // as before version 0.2
     line.add("dem_steps", inner_steps).add("seconds", report.seconds).add("seconds_in_points", in_points);

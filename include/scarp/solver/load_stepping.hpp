@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "scarp/core/described.hpp"
@@ -50,25 +51,6 @@ struct NoObserver {
   bool wants_stop() const { return false; }             ///< Never stops a run.
 };
 
-/// How far a run came.
-struct [[nodiscard]] RunReport {
-  Verdict verdict;                     ///< acceptable where the run reached its last load factor
-  Reason last_failure = Reason::none;  ///< why the last rejected attempt was rejected
-  int worst_point = -1;                ///< material point of that attempt, -1 for none
-  int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
-  double load = 0.0;                   ///< load factor of the committed state
-  int steps = 0;                       ///< accepted
-  int refused = 0;                     ///< attempts that were rolled back
-  long iterations = 0;                 ///< of all attempts
-  long inner_steps = 0;                ///< DEM steps of all attempts
-  double largest_residual = 0.0;       ///< of the accepted steps
-  double material_seconds = 0.0;       ///< wall time in responses and tangents of all attempts [s]
-  double seconds = 0.0;                ///< wall time of all attempts [s]
-
-  SCARP_MEMBERS(verdict, last_failure, worst_point, weak_dof, load, steps, refused, iterations, inner_steps,
-                largest_residual, material_seconds, seconds)
-};
-
 /// Where a run stands between two attempts: with the problem and the session it is all that the rest of the run follows
 /// from.
 struct RunState {
@@ -89,28 +71,13 @@ concept KeepsRuns = ObservesSteps<Observer, Problem> &&
   observer.ends(problem, session, state);
 };
 
-/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's, the last failure is
-/// that of the last stage that had one.
-inline RunReport joined(RunReport const& earlier, RunReport later) {
-  if (later.refused == 0) {
-    later.last_failure = earlier.last_failure;
-    later.worst_point = earlier.worst_point;
-    later.weak_dof = earlier.weak_dof;
-  }
-  later.steps += earlier.steps;
-  later.refused += earlier.refused;
-  later.iterations += earlier.iterations;
-  later.inner_steps += earlier.inner_steps;
-  later.largest_residual = std::max(later.largest_residual, earlier.largest_residual);
-  later.material_seconds += earlier.material_seconds;
-  later.seconds += earlier.seconds;
-  return later;
-}
-
 /// Raises the load factor in steps that adapt themselves: the prediction's largest displacement gradient limits a step
 /// before it is tried, few iterations let the next one grow, many make it shrink, and a failed one is rolled back and
 /// halved. A step ends at the knots of loads and prescribed motions, so that no peak is passed by. Only a step whose
-/// residual and points are all acceptable is committed.
+/// residual and points are all acceptable is committed. A field that estimates its error in time, such as `PoreWater`
+/// with `largest_time_error`, limits steps too: one step has an error of second order, so that the next one is at most
+/// as long as this one times \f$ 0.9/\sqrt{e} \f$, e being the error over the allowed one. A step of e > 1 is rolled
+/// back, and repeated with its length times 0.9/e or 0.1: after a sudden change the estimate is of first order.
 struct LoadStepping {
   double first = 1e-3;                      ///< load increment of the first step
   double smallest = 1e-7;                   ///< increment below which the run gives up
@@ -213,8 +180,9 @@ struct LoadStepping {
       // A step that a knot has cut short leaves the next one as long as it was to be.
       if (!is_cut || step.load < goal) increment = step.iterations() <= grow_below ? tried * growth : tried;
       if (step.iterations() > shrink_above) increment *= shrinkage;
+      if (step.time_error > 0.0) increment = std::min(increment, tried * 0.9 / std::sqrt(step.time_error));
     } else {
-      increment = 0.5 * tried;
+      increment = tried * (step.verdict.reason == Reason::time_error ? std::max(0.9 / step.time_error, 0.1) : 0.5);
       if (increment < smallest) {
         run.verdict = {Status::not_converged, Reason::step_too_small};
         return;
@@ -245,6 +213,7 @@ struct LoadStepping {
       displacement = predict();
       session.correct(displacement, step, [&] { return observer.wants_stop(); });
       if (step.interrupted()) return true;
+      judge_time(problem, step);
     }
     step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     bool const accepted = step.verdict.acceptable();
@@ -252,6 +221,16 @@ struct LoadStepping {
     count(run, step, accepted);
     observer.attempted(problem, step);
     return began;
+  }
+
+  /// Rejects a step in equilibrium whose error in time is larger than allowed.
+  template <class Problem>
+  static void judge_time(Problem const& problem, StepReport& step) {
+    if constexpr (requires { problem.time_error(); }) {
+      if (!step.verdict.acceptable()) return;
+      step.time_error = problem.time_error();
+      if (step.time_error > 1.0) step.verdict = {Status::not_converged, Reason::time_error};
+    }
   }
 
   /// Cuts the increment until the prediction strains no point more than allowed; the prediction is nearly linear in it.

@@ -100,7 +100,8 @@ class SCARP_EXPORT Problem {
   double next_knot(double load) const {
     return std::min({loads_.next_knot(load), constraints_.next_knot(load), attached_.next_knot(load)});
   }
-  Grid<Dim> const& grid() const { return *grid_; }               ///< Mesh and elements, committed.
+  double time_error() const { return has_field() ? field()->time_error() : 0.0; }  ///< See FieldAttachment; else 0.
+  Grid<Dim> const& grid() const { return *grid_; }                                 ///< Mesh and elements, committed.
   MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
   MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
   Constraints const& constraints() const { return constraints_; }  ///< Prescribed displacements [m].
@@ -141,11 +142,10 @@ class SCARP_EXPORT Problem {
   Evaluation evaluate(Eigen::VectorXd const& increment) {
     Evaluation evaluation;
     evaluation.verdict = look(increment, &evaluation.worst_point);
-    if (evaluation.verdict.acceptable()) {
-      static_cast<ResponseReport&>(evaluation) = points_.evaluate(executor_);
-      evaluated_ = increment;
-      add_up(increment, evaluation);
-    }
+    if (!evaluation.verdict.acceptable()) return evaluation;
+    static_cast<ResponseReport&>(evaluation) = points_.evaluate(executor_);
+    evaluated_ = increment;
+    add_up(increment, evaluation);
     return evaluation;
   }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "scarp/core/described.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/points/point_survey.hpp"
@@ -50,9 +52,10 @@ struct [[nodiscard]] StepReport {
   std::vector<IterationRecord> history{};  ///< one record for each iteration
   std::vector<PartResidual> parts{};       ///< of the last iteration; empty where the problem has no parts
   double max_displacement_gradient = 0.0;  ///< of the prediction, over all points
-  double condition = 0.0;  ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
-  int weak_dof = -1;       ///< degree of freedom that a singular system does not hold, -1 for none
-  double seconds = 0.0;    ///< wall time of the attempt
+  double condition = 0.0;   ///< estimate of the stiffness at the start of the step, 1-norm; 0 where it was not made
+  int weak_dof = -1;        ///< degree of freedom that a singular system does not hold, -1 for none
+  double time_error = 0.0;  ///< estimated error in time over what is allowed; 0 where none is estimated
+  double seconds = 0.0;     ///< wall time of the attempt
 
   int iterations() const { return detail::count(history); }  ///< Number of iterations, refinements not counted.
   /// Of the last iteration; 0 before the first.
@@ -68,5 +71,42 @@ struct [[nodiscard]] StepReport {
     return true;
   }
 };
+
+/// How far a run came.
+struct [[nodiscard]] RunReport {
+  Verdict verdict;                     ///< acceptable where the run reached its last load factor
+  Reason last_failure = Reason::none;  ///< why the last rejected attempt was rejected
+  int worst_point = -1;                ///< material point of that attempt, -1 for none
+  int weak_dof = -1;                   ///< degree of freedom that its singular system did not hold, -1 for none
+  double load = 0.0;                   ///< load factor of the committed state
+  int steps = 0;                       ///< accepted
+  int refused = 0;                     ///< attempts that were rolled back
+  long iterations = 0;                 ///< of all attempts
+  long inner_steps = 0;                ///< DEM steps of all attempts
+  double largest_residual = 0.0;       ///< of the accepted steps
+  double material_seconds = 0.0;       ///< wall time in responses and tangents of all attempts [s]
+  double seconds = 0.0;                ///< wall time of all attempts [s]
+
+  SCARP_MEMBERS(verdict, last_failure, worst_point, weak_dof, load, steps, refused, iterations, inner_steps,
+                largest_residual, material_seconds, seconds)
+};
+
+/// Two stages of a run as one: counts and times add up, verdict and load are the later stage's, the last failure is
+/// that of the last stage that had one.
+inline RunReport joined(RunReport const& earlier, RunReport later) {
+  if (later.refused == 0) {
+    later.last_failure = earlier.last_failure;
+    later.worst_point = earlier.worst_point;
+    later.weak_dof = earlier.weak_dof;
+  }
+  later.steps += earlier.steps;
+  later.refused += earlier.refused;
+  later.iterations += earlier.iterations;
+  later.inner_steps += earlier.inner_steps;
+  later.largest_residual = std::max(later.largest_residual, earlier.largest_residual);
+  later.material_seconds += earlier.material_seconds;
+  later.seconds += earlier.seconds;
+  return later;
+}
 
 }  // namespace scarp

@@ -166,6 +166,17 @@ class CornerField {
     }
   }
 
+  /// A value over the mean size of the elements with the field [1/m].
+  double over_mean_size(double value) const {
+    double size = 0.0;
+    double cells = 0.0;
+    for_each_cell([&](Cell const& cell) {
+      size += std::sqrt(cell.squared_size);
+      cells += 1.0;
+    });
+    return value * cells / size;
+  }
+
   /// Areas [m2] of a boundary's corners, thickness included, on the initial mesh: \f$ \int N_a\,dA \f$
   Eigen::VectorXd areas(std::string_view side) const {
     using Facet = typename Corner::Facet;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "scarp/bvp/detail/corner_field.hpp"
+#include "scarp/core/described.hpp"
+
+namespace scarp::detail {
+
+/// Estimate of the error that one step of backward Euler makes, \f$ \frac{\Delta t^2}{2} \ddot u \f$, by the rates of
+/// this step and of the last one in which time passed (Sloan and Abbo 1999, Int. J. Numer. Anal. Meth. Geomech. 23,
+/// 467). Before the first one the rates are 0, those of a state at rest: a ground that was loaded at once, or whose
+/// loads turn, has the error of first order \f$ \frac{\Delta t}{2} |\Delta \dot u| \f$, and begins in small steps.
+class TimeError {
+ public:
+  using Values = Eigen::VectorXd;
+
+  explicit TimeError(std::optional<double> allowed) : allowed_(allowed) {}
+
+  /// Largest estimate of all values over the allowed error, by their change in a step of a duration [s]; 0 without
+  /// either.
+  double of(Values const& change, double duration) const {
+    if (!applies(duration)) return 0.0;
+    Values const bend = rate_.empty() ? change : change - duration * viewed(rate_);
+    return bend.lpNorm<Eigen::Infinity>() / (2.0 * *allowed_);
+  }
+
+  void commit(Values const& change, double duration) {
+    if (!applies(duration)) return;
+    Values const rate = change / duration;
+    rate_.assign(rate.begin(), rate.end());
+  }
+
+  SCARP_MEMBERS_EXCEPT((allowed_), rate_)
+
+ private:
+  bool applies(double duration) const { return allowed_ && duration > 0.0; }
+
+  std::optional<double> allowed_;
+  std::vector<double> rate_{};  ///< of the last step with time [1/s]; empty before
+};
+
+}  // namespace scarp::detail
