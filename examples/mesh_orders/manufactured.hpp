@@ -72,7 +72,7 @@ Outcome solve(int cells, double distortion = 0.0) {
       constraints.fix(node);
     }
   }
-  auto const forces = scarp::varying_body_force(grid, [&](auto const& x) { return wave.body_force(x); });
+  auto const forces = examples::varying_body_force(grid, [&](auto const& x) { return wave.body_force(x); });
   auto const found = examples::elastic_solve(grid, wave.solid, constraints, exact, forces);
   std::chrono::duration<double> const took = std::chrono::steady_clock::now() - start;
   return {1.0 / cells, grid.dof_count(),

@@ -51,7 +51,7 @@ TEST_CASE_TEMPLATE("body forces keep the moment of the weight on distorted meshe
 
 TEST_CASE("a force that varies within the elements has its resultant and its moment") {
   scarp::Discretisation<scarp::Quad8> const disc(samples::distorted_block<scarp::Quad8>(3), 0.5);
-  auto const forces = scarp::varying_body_force(
+  auto const forces = examples::varying_body_force(
       disc, [](scarp::Vector<2> const& x) { return scarp::Vector<2>(0.0, x.x() * x.x() * x.y()); });
   double lever = 0.0;
   for (int n = 0; n < disc.node_count(); ++n) {

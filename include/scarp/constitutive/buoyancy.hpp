@@ -19,13 +19,8 @@ struct Buoyancy {
     require_not_negative("lift of ground below the water table", lift);
     if (std::isnan(water_table)) reject("the depth of the water table is not a number: give it in metres");
   }
-  /// Lift [N/m3] at a depth [m].
-  double at(double depth) const { return depth > submerged_from() ? lift : 0.0; }
   /// Vertical pressure [Pa] that it takes from the ground at a depth [m].
-  double relief(double depth) const { return lift * std::max(depth - submerged_from(), 0.0); }
-
- private:
-  double submerged_from() const { return std::max(water_table, 0.0); }
+  double relief(double depth) const { return lift * std::max(depth - std::max(water_table, 0.0), 0.0); }
 };
 
 }  // namespace scarp

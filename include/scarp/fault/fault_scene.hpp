@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "scarp/bvp/default_integration.hpp"
-#include "scarp/bvp/varying_body_force.hpp"
 #include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
@@ -79,6 +78,18 @@ template <class Structure>
 Buoyancy buoyancy_of(Structure const& structure) {
   if constexpr (requires { structure.buoyancy(); }) return structure.buoyancy();
   return {};
+}
+
+/// Forces [N] of the water that carries ground, shape (dof_count): those of the vertical stress that it relieves the
+/// points of, so that ground at rest is in balance also where the water table crosses an element.
+template <class Grid>
+Eigen::VectorXd lift(Grid const& grid, double surface_level, Buoyancy const& buoyancy) {
+  std::vector<VoigtStress<Grid::dim>> relieved(index(grid.point_count()), VoigtStress<Grid::dim>::Zero());
+  for (int point = 0; point < grid.point_count(); ++point)
+    relieved[index(point)](Grid::dim - 1) = buoyancy.relief(grid.site(point, surface_level).depth);
+  Eigen::VectorXd forces;
+  grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), relieved, forces);
+  return forces;
 }
 
 /// Of what is attached to a mesh.
@@ -237,10 +248,7 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   Eigen::VectorXd dead =
       grid.body_force([&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
   if constexpr (requires { structure.buoyancy(); }) {
-    auto const buoyancy = structure.buoyancy();
-    dead -= varying_body_force(grid, [&](Vector<dim> const& place) -> Vector<dim> {
-      return buoyancy.at(ground.surface_level() - place(dim - 1)) * down;
-    });
+    dead += detail::lift(grid, ground.surface_level(), structure.buoyancy());
   }
   dead += grid.traction("surface", surcharge * down);
   LoadHistory loads(std::move(dead));
