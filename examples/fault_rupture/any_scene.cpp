@@ -100,10 +100,12 @@ auto with_scene(Choice const& choice, Make const& make) {
 #ifndef FAULT_RUPTURE_WATER
   if (choice.water_table)
     scarp::reject(
-        "--water-table is given to a program without water: start it by ./examples/run, which builds "
-        "fault_rupture_water");
+        "--water-table is given to a program without water: start it by ./examples/run, which builds one with water");
+#else
+  if (!choice.water_table)
+    scarp::reject("--water-table is not given to a program with water: give it, or start fault_rupture");
 #endif
-  if (choice.scene != Case::free && choice.base != Base::tied) return make(std::type_identity<Scene<RigidFooting>>());
+  if (choice.scene != Case::free && choice.base != Base::tied) return make(std::type_identity<Scene<SlidingFooting>>());
   if (choice.scene == Case::free) return make(std::type_identity<Scene<FreeField>>());
   return make(std::type_identity<Scene<TiedFooting>>());
 }

@@ -28,8 +28,8 @@ using OnGround = Structure;
 #endif
 using FreeField = OnGround<scarp::NoStructure>;
 using TiedFooting = OnGround<scarp::TiedFooting>;
-using RigidFooting = OnGround<FrictionalFooting>;
-using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>, Scene<RigidFooting>>;
+using SlidingFooting = OnGround<FrictionalFooting>;
+using AnyScene = std::variant<Scene<FreeField>, Scene<TiedFooting>, Scene<SlidingFooting>>;
 
 /// processes: that share the packings out among them; reports on stderr what is prepared where `speaks`
 /// \throws scarp::InputError for choices that do not make a scene or need too much memory, scarp::PreparationError

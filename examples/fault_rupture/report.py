@@ -51,7 +51,7 @@ FIGURES = {
     "footing": ("Footing", "Settlement, tilt and pressures over the throw."),
     "base_pressure": ("Pressure on the base", "Contact pressure along the footing's base at a few throws."),
     "excess_pressure": ("Excess pore pressure", "At half of the throw, at its end and at the end of the run; suction is red."),
-    "pressures": ("Excess pore pressure over the run", "Of the elements; suction is red."),
+    "pressures": ("Excess pore pressure over the throw", "Means of the elements' corners; suction is red. The last frame is the end of the run."),
     "water": ("Pore water over time", "Least and largest excess pressure, volumes of water and vapour, and the surface, over time."),
     "packing": ("A packing at the start", "One of the packings as it was prepared, with force chains."),
     "convergence": ("Convergence", "Residuals of all iterations, and DEM steps, over the throw."),

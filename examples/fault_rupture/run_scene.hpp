@@ -292,7 +292,7 @@ extern template int run(Choice const&, Scene<FreeField> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<FreeField> const&);
 extern template int run(Choice const&, Scene<TiedFooting> const&, Start const&);
 extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<TiedFooting> const&);
-extern template int run(Choice const&, Scene<RigidFooting> const&, Start const&);
-extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<RigidFooting> const&);
+extern template int run(Choice const&, Scene<SlidingFooting> const&, Start const&);
+extern template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<SlidingFooting> const&);
 
 }  // namespace fault_rupture

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bvp/sample_problems.hpp"
 #include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/pore_water.hpp"
@@ -149,6 +150,30 @@ TEST_CASE("a body beside a field has the degrees of freedom before the field's, 
   REQUIRE(parts.size() == 3);
   CHECK(parts[1].name == "attached");
   CHECK(parts[2].name == "water");
+}
+
+TEST_CASE("the stiffness of a field behind a body is the derivative of its forces") {
+  Grid const grid(samples::distorted_block<Quad8>(2), thickness);
+  Water water = water_in(grid);
+  int const body = 3;
+  int const size = grid.dof_count() + body + water.extra_dofs();
+  water.at(1.5);
+  auto const forces_at = [&](Eigen::VectorXd const& increment) {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(size);
+    REQUIRE(water.add_forces(grid.positions(), increment, forces).acceptable());
+    return forces;
+  };
+  Eigen::VectorXd const at = samples::random_increment(size, 0.02, 7);
+  Eigen::VectorXd const way = samples::random_increment(size, 1.0, 8);
+  constexpr double step = 1e-6;
+  Eigen::VectorXd const change = (forces_at(at + step * way) - forces_at(at - step * way)) / (2.0 * step);
+  auto const forces = forces_at(at);
+  CHECK(forces.segment(grid.dof_count(), body).norm() == 0.0);
+  std::vector<Eigen::Triplet<double>> entries;
+  water.add_stiffness(entries);
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(size);
+  for (auto const& entry : entries) product(entry.row()) += entry.value() * way(entry.col());
+  CHECK((product - change).norm() < 1e-7 * change.norm());
 }
 
 TEST_CASE("a column below a pressure that follows goes on with the same bits once it was saved") {

@@ -81,6 +81,7 @@ def check_refusals(folder):
         rejected(TypeError, f"over has dip={values!r} (expected is a sequence", lambda: scarp.study(scarp.fault_rupture, {"dip": values}, folder / "refused"))
     rejected(TypeError, "an option is <object", lambda: run(dip=object()))
     rejected(ValueError, "no program has both", lambda: run(element="tri6", device="cuda"))
+    rejected(ValueError, "no program has both", lambda: run(water_table=0, device="cuda"))
     rejected(ValueError, "the command is 'biaxial' (expected is one of prepare, shear", lambda: scarp.rve_lab("biaxial", folder))
     rejected(ValueError, "expected is that of a run", lambda: scarp.FaultRun(folder / "nowhere"))
     expect(not (folder / "refused").exists(), "a run that is rejected leaves a folder")
@@ -94,6 +95,8 @@ def check_refusals(folder):
     broken.chmod(0o755)
     rejected(RuntimeError, "ended with 3 (no such instruction): build the program for this machine", lambda: run(element="tri6"))
     rejected(FileNotFoundError, "build it by './examples/run fault_rupture --element quad8 --help'", lambda: run(element="quad8"))
+    rejected(FileNotFoundError, "build it by './examples/run fault_rupture --water-table 0 --element quad8 --help'",
+             lambda: run(water_table=0, element="quad8"))
     del os.environ["SCARP_PROGRAMS"]
     if before:
         os.environ["SCARP_PROGRAMS"] = before

@@ -78,7 +78,7 @@ void rupture(Scene const& scene, int threads_of_a_rank, scarp::CheckpointFiles f
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   if (argc < 3) {
-    fmt::print(stderr, "usage: ground_on_ranks THREADS LENGTH [FOLDER [ATTEMPTS]]\n");
+    fmt::print(stderr, "usage: ground_on_ranks THREADS LENGTH|wet [FOLDER [ATTEMPTS]]\n");
     MPI_Finalize();
     return 2;
   }

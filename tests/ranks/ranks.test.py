@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""[slow] A small fault in packings has the same bits on one, two and three MPI ranks of one or two threads, and no rank keeps a packing of
+"""[slow] A small fault in packings, dry and in water, has the same bits on one, two and three MPI ranks of one or two threads, and no rank keeps a packing of
 another; stopped and gone on from checkpoints by other numbers of ranks it ends with these bits too. Environment:
 SCARP_TEST_PROGRAMS, the folder of ground_on_ranks (skipped, exit 77, without it or mpirun)."""
 import os

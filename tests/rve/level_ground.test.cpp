@@ -102,6 +102,12 @@ TEST_CASE("packings below a water table carry what the water leaves") {
   }
 }
 
+TEST_CASE("level ground that would float is rejected") {
+  auto ground = small_ground();
+  ground.buoyancy = {.water_table = 0.0, .lift = 1.01 * ground.unit_weight};
+  CHECK_REFUSED(ground.make<Grains>(samples::study_law(), {3.0, 6.0}), "the ground would float");
+}
+
 TEST_CASE("depths are the same by their overburden, in models of any size") {
   // A model in a centrifuge: a hundred times the weight, a hundredth of the depths.
   auto ground = small_ground();

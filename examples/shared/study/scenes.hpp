@@ -38,7 +38,7 @@ template <class Structure>
 void set(scarp::Saturated<Structure>& structure, Choice const& choice) {
   set(static_cast<Structure&>(structure), choice);
   structure.void_ratio = choice.void_ratio;
-  structure.water_table = choice.water_table.value_or(0.0);
+  structure.water_table = *choice.water_table;
   structure.flow = scarp::KozenyCarman::of_conductivity(choice.conductivity, choice.void_ratio);
 }
 #endif

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,12 +27,12 @@ struct NodalField {
 
 /// An `Attachment` whose degrees of freedom are a field over the mesh, such as the pressure of pore water, and no body:
 /// they are solved together with the displacements, and what is known of them belongs to the field itself. They are the
-/// last ones of the problem. is_field: true; at(load): from now on forces belong to a step that ends at this load factor; next_knot(load): first load factor
-/// beyond one where the field's own courses may turn; name(): of its residual; residual(unbalanced): imbalance of its
-/// own equations, relative to its own measure, shape (extra_dofs); describe(number): a degree of freedom in words;
-/// nodal_fields() and ground_force(), what it does to the mesh [N], shape (dof_count of the mesh): committed;
-/// time_error(), where it has one: estimated error in time of the step whose forces were requested last, over what is
-/// allowed.
+/// last ones of the problem. is_field: true; at(load): from now on forces belong to a step that ends at this load
+/// factor; next_knot(load): first load factor beyond one where the field's own courses may turn; name(): of its
+/// residual; residual(unbalanced): imbalance of its own equations, relative to its own measure, shape (extra_dofs);
+/// describe(number): a degree of freedom in words; nodal_fields() and ground_force(), what it does to the mesh [N],
+/// shape (dof_count of the mesh): committed; time_error(), where it has one: estimated error in time of the step whose
+/// forces were requested last, over what is allowed.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -177,9 +178,9 @@ struct Attachments {
   }
   template <class Self, class Visit>
   static void members(Self& self, Visit& visit) {
-    if constexpr (std::same_as<Visit, StateWriter>) {
+    if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateWriter>) {
       self.write(visit);
-    } else if constexpr (std::same_as<Visit, StateReader>) {
+    } else if constexpr (std::same_as<std::remove_cvref_t<Visit>, StateReader>) {
       if (self.part) self.part->read(visit);
       if (self.field) self.field->read(visit);
     }

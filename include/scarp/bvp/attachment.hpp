@@ -5,11 +5,12 @@
 #include <concepts>
 #include <memory>
 #include <optional>
-#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "scarp/bvp/grid.hpp"
+#include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/state_bits.hpp"

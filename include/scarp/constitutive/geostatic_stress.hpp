@@ -30,11 +30,7 @@ struct GeostaticStress {
     require_not_negative("surcharge on the ground surface", surcharge);
     require_not_negative("unit weight", unit_weight);
     require_not_negative("ratio of horizontal to vertical stress, K0,", k0);
-    buoyancy.validate();
-    if (buoyancy.lift > unit_weight)
-      reject(
-          "the unit weight is {} N/m3 (water lifts {} N/m3, so that the ground would float): give that of dry ground",
-          unit_weight, buoyancy.lift);
+    buoyancy.validate(unit_weight);
   }
 
   /// depth [m]

@@ -63,7 +63,7 @@ void require_carried(Soil const& soil, std::vector<Site<Dim>> sites, Overburden 
       middle->carried, middle->depth, middle->weight);
 }
 
-/// That of the ground below a structure.
+/// A field of the ground below a structure, or nothing.
 template <class Structure, class Grid>
 auto field_of(Structure const& structure, Grid const& grid, double throw_to) {
   if constexpr (requires { structure.field(grid, throw_to); }) {
@@ -73,20 +73,22 @@ auto field_of(Structure const& structure, Grid const& grid, double throw_to) {
   }
 }
 
-/// Of ground below a structure.
+/// What water carries of the ground below a structure.
 template <class Structure>
 Buoyancy buoyancy_of(Structure const& structure) {
   if constexpr (requires { structure.buoyancy(); }) return structure.buoyancy();
   return {};
 }
 
-/// Forces [N] of the water that carries ground, shape (dof_count): those of the vertical stress that it relieves the
-/// points of, so that ground at rest is in balance also where the water table crosses an element.
+/// Forces [N] of the water that carries a region of the ground, shape (dof_count): those of the vertical stress that it
+/// relieves the points of, so that ground at rest is in balance also where the water table crosses an element.
 template <class Grid>
-Eigen::VectorXd lift(Grid const& grid, double surface_level, Buoyancy const& buoyancy) {
+Eigen::VectorXd lift(Grid const& grid, double surface_level, int region, Buoyancy const& buoyancy) {
   std::vector<VoigtStress<Grid::dim>> relieved(index(grid.point_count()), VoigtStress<Grid::dim>::Zero());
-  for (int point = 0; point < grid.point_count(); ++point)
-    relieved[index(point)](Grid::dim - 1) = buoyancy.relief(grid.site(point, surface_level).depth);
+  for (int point = 0; point < grid.point_count(); ++point) {
+    auto const site = grid.site(point, surface_level);
+    if (site.region == region) relieved[index(point)](Grid::dim - 1) = buoyancy.relief(site.depth);
+  }
   Eigen::VectorXd forces;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), relieved, forces);
   return forces;
@@ -236,6 +238,8 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   require_not_negative("unit weight", unit_weight);
   require_not_negative("surcharge", surcharge);
   require_positive("throw", throw_to);
+  auto const buoyancy = detail::buoyancy_of(structure);
+  buoyancy.validate(unit_weight);
   Grid grid(mesh());
   detail::require_carried(soil, soil_sites(grid), [&](double depth) { return overburden(depth); });
   auto attached = structure.attached(grid);
@@ -247,9 +251,7 @@ EquilibriumProblem<GridType> FaultScene<Soil, Structure, Solver, GroundType, Mot
   Vector<dim> const down = -Vector<dim>::Unit(dim - 1);
   Eigen::VectorXd dead =
       grid.body_force([&](int region) { return (region == soil_region ? unit_weight : 0.0) * down; });
-  if constexpr (requires { structure.buoyancy(); }) {
-    dead += detail::lift(grid, ground.surface_level(), structure.buoyancy());
-  }
+  if (buoyancy.lift > 0.0) dead += detail::lift(grid, ground.surface_level(), soil_region, buoyancy);
   dead += grid.traction("surface", surcharge * down);
   LoadHistory loads(std::move(dead));
   structure.add_loads(grid, surcharge, loads);

@@ -55,7 +55,10 @@ struct Saturated : Structure {
   double water_table = 0.0;    ///< depth below the surface [m], negative for water that stands on it
   RuptureTimes times{};        ///< of throw and drainage
 
-  Buoyancy buoyancy() const { return {water_table, Water{}.lift(void_ratio)}; }  ///< Of the ground at the start.
+  /// Of the ground at the start. \throws InputError for a void ratio that is not positive
+  Buoyancy buoyancy() const {
+    return {water_table, pore_water().lift(require_positive("void ratio of saturated ground", void_ratio))};
+  }
 
   /// throw_to [m]
   /// \throws InputError for properties outside of their range
@@ -67,16 +70,22 @@ struct Saturated : Structure {
     constexpr double drained =
         1e6;  // times that diffusion through the depth takes: a millionth of the pressure is left
     double const before = drained * depth * depth / require_positive("shear modulus and conductivity", diffusion);
-    PoreWater<Grid, Flow> water(grid, flow,
-                                {.shear_modulus = shear_modulus,
-                                 .void_ratio = void_ratio,
-                                 .clock = detail::validated(times).clock(this->start(), throw_to, before),
-                                 .at_rest = WaterAtRest{.level = surface - water_table}});
+    PoreWater<Grid, Flow> water(
+        grid, flow,
+        {.shear_modulus = shear_modulus,
+         .void_ratio = void_ratio,
+         .clock = detail::validated(times).clock(this->start(), throw_to, before),
+         .at_rest = WaterAtRest{.level = surface - water_table, .unit_weight = pore_water().unit_weight}});
     for (auto const& region : grid.regions())
       if (region != "soil") water.exclude(region);
     for (auto const* above : {"surface", "footing_base"})
       if (grid.has_boundary(above)) water.drain({above});
     return water;
+  }
+  /// That of the flow where it has one.
+  Water pore_water() const {
+    if constexpr (requires { flow.water; }) return flow.water;
+    return {};
   }
   /// Load factor at the end, when the water has drained. throw_to [m]
   double end(double throw_to) const { return times.end(throw_to); }

@@ -39,7 +39,7 @@ struct LevelGround {
     require_not_negative("unit weight of level ground", unit_weight);
     require_not_negative("surcharge of level ground", surcharge);
     require_at_least("overconsolidation ratio of level ground", overconsolidation_ratio, 1.0);
-    buoyancy.validate();
+    buoyancy.validate(unit_weight);
   }
 
   /// Vertical effective stress [Pa], compression positive, at a depth [m].

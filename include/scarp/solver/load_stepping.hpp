@@ -229,7 +229,7 @@ struct LoadStepping {
     if constexpr (requires { problem.time_error(); }) {
       if (!step.verdict.acceptable()) return;
       step.time_error = problem.time_error();
-      if (step.time_error > 1.0) step.verdict = {Status::not_converged, Reason::time_error};
+      if (!(step.time_error <= 1.0)) step.verdict = {Status::not_converged, Reason::time_error};
     }
   }
 

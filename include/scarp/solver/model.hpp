@@ -97,7 +97,7 @@ class SCARP_EXPORT Model {
   /// \throws InputError for a second one
   template <FieldAttachment Field>
   void attach(Field const& field) {
-    if (field_) reject("a second field is attached to the model (it can have one): make a problem of your own");
+    if (field_) reject("a second field is attached to the model (it can have one): leave one out");
     field_ = [field] { return std::make_unique<detail::AttachedFieldOf<dim, Field>>(field); };
   }
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -70,7 +70,7 @@ class SCARP_EXPORT Problem {
     reject("what is attached to the mesh is requested as another type: take the one that was given");
   }
   int first_beside() const { return grid_->dof_count(); }  ///< First degree of freedom behind those of the mesh.
-  int first_of_field() const { return first_beside() + attached_.part_dofs(); }  ///< And of a body.
+  int first_of_field() const { return first_beside() + attached_.part_dofs(); }  ///< Behind those of mesh and body.
   /// A degree of freedom in words.
   std::string describe_dof(int dof) const {
     bool const is_of_field = has_field() && dof >= first_of_field();
@@ -105,7 +105,7 @@ class SCARP_EXPORT Problem {
   MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
   MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
   Constraints const& constraints() const { return constraints_; }  ///< Prescribed displacements [m].
-  /// Without a prescribed displacement, increasing.
+  /// Without a prescribed displacement, increasing; those of a field are not among them.
   std::vector<int> const& free_dofs() const { return whole_.free_dofs; }
   LoadHistory const& loads() const { return loads_; }     ///< Forces [N] by load factor.
   Executor const& executor() const { return executor_; }  ///< Runs the points' tasks; outlives the problem.
@@ -234,7 +234,7 @@ class SCARP_EXPORT Problem {
     visit("discretisation", *self.grid_);
     visit("materials", self.points_);
     visit("largest_scale", self.whole_.largest_scale);
-    self.attached_.members(self.attached_, visit);
+    detail::Attachments<Dim>::members(self.attached_, visit);
   }
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
 
@@ -275,8 +275,8 @@ class SCARP_EXPORT Problem {
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
     if (has_attachment() || has_field() || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
-    if (!std::isfinite(evaluation.residual) && evaluation.verdict.acceptable())
-      evaluation.verdict = {Status::failed, Reason::not_finite};
+    bool const finite = std::isfinite(evaluation.residual) && evaluation.unbalanced.allFinite();
+    if (!finite && evaluation.verdict.acceptable()) evaluation.verdict = {Status::failed, Reason::not_finite};
   }
 
   detail::Attachments<Dim> attached_;

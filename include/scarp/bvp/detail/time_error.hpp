@@ -20,8 +20,8 @@ class TimeError {
 
   explicit TimeError(std::optional<double> allowed) : allowed_(allowed) {}
 
-  /// Largest estimate of all values over the allowed error, by their change in a step of a duration [s]; 0 without
-  /// either.
+  /// Largest estimate of all values over the allowed error, by their change in a step of a duration [s]; 0 where
+  /// no time passes or no error is set.
   double of(Values const& change, double duration) const {
     if (!applies(duration)) return 0.0;
     Values const bend = rate_.empty() ? change : change - duration * viewed(rate_);

@@ -45,15 +45,6 @@ class ContactFollowing {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
     body_.begin();
     Tried now = balance({increment, still, ground.unbalanced(increment, more), still}, 0.0);
-    // A field's equations are linear here: once they balance, they do so along every way.
-    if (problem_.has_field()) {
-      Way way;
-      Verdict verdict = factorize(ground);
-      if (!verdict.acceptable()) verdict = factorize(ground, problem_.stick_stiffness());
-      if (verdict.acceptable()) verdict = lay(way, ground, now, more);
-      if (!verdict.acceptable()) return verdict;
-      now = balance(way, 1.0);
-    }
     double const goal = std::max(accuracy_, 1e-3 * now.residual);
     Tried best = now;
     int fruitless = 0;
@@ -62,16 +53,22 @@ class ContactFollowing {
       if (iteration > 0 && (now.residual <= goal || body_.spent())) break;
       Way way;
       Tried next;
-      bool const downhill =
-          factorize(ground).acceptable() && lay(way, ground, now, more).acceptable() && go_downhill(way, now, next);
+      // A field's equations are linear here. Once they balance, they do so along every way: so the first one goes whole.
+      bool const whole = iteration == 0 && problem_.has_field();
+      bool const downhill = factorize(ground).acceptable() && lay(way, ground, now, more).acceptable() &&
+                            (whole ? go_whole(way, goal, now, next) : go_downhill(way, now, next));
       if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
         Verdict verdict = factorize(ground, problem_.stick_stiffness());
         if (verdict.acceptable()) verdict = lay(way, ground, now, more);
         if (!verdict.acceptable()) return verdict;
-        if (!go_by_work(way, next)) break;
+        if (whole) {
+          next = balance(way, 1.0);
+        } else if (!go_by_work(way, next)) {
+          break;
+        }
       }
       now = std::move(next);
-      fruitless = now.residual < best.residual ? 0 : fruitless + 1;
+      fruitless = whole || now.residual < best.residual ? 0 : fruitless + 1;
       if (fruitless == 0) best = now;
       if (fruitless == max_fruitless) break;
     }
@@ -117,6 +114,12 @@ class ContactFollowing {
     way = {from.increment, whole - from.increment, ground.unbalanced(from.increment, more), {}};
     way.ground_along = ground.stiffness * way.direction;
     return {};
+  }
+
+  /// \return whether the balance at the end of the way is no worse, or good enough
+  bool go_whole(Way const& way, double goal, Tried const& now, Tried& next) {
+    next = balance(way, 1.0);
+    return !next.lost() && next.residual <= std::max(goal, now.residual);
   }
 
   /// Halves the way until the balance improves, or doubles it as long as it does.
