@@ -25,7 +25,7 @@ struct WaterOptions {
   double void_ratio = 0.7;        ///< at the start
   double bulk_modulus = 2.2e9;    ///< of the water [Pa]
   std::optional<double> table{};  ///< height of the water table [m], for water that cavitates
-  std::optional<double> largest_time_error{};  ///< of one step [Pa]
+  std::optional<double> largest_time_error{};  ///< of one step, estimated [Pa]
   scarp::TimeFunction clock{};                 ///< [s] over the load factor
   std::vector<std::string> drained{};
   std::vector<WaterBoundary> pressures{};

@@ -178,6 +178,7 @@ stretched = scarp.Analysis(pulled, largest=1.0)
 stretched.to(1.0)
 expect(-100e3 - 9.81e3 * 1.01 - 20.0 < stretched.pore_pressures.min() < -100e3, f"pressure of stretched water: {stretched.pore_pressures.min()}")
 rejected(ValueError, "water table is at a height", lambda: pulled.water(shear_modulus=5e6, clock=[(0, 0)], table=-1.0))
+rejected(ValueError, "largest time error", lambda: pulled.water(shear_modulus=5e6, clock=[(0, 0)], largest_time_error=-1.0))
 rejected(ValueError, "no water", lambda: scarp.Analysis(footing(lambda rest: One(2, **rest))).pore_pressures)
 for clock in ([(0, 0), (1, -1)], [(0, 1), (1, 2)], [(1, 5)], [(-1, 0), (1, 1)]):
     rejected(ValueError, "clock of the pore water", lambda: footing(lambda rest: One(2, **rest)).water(shear_modulus=1.0, clock=clock))

@@ -77,7 +77,7 @@ concept KeepsRuns = ObservesSteps<Observer, Problem> &&
 /// residual and points are all acceptable is committed. A field that estimates its error in time, such as `PoreWater`
 /// with `largest_time_error`, limits steps too: one step has an error of second order, so that the next one is at most
 /// as long as this one times \f$ 0.9/\sqrt{e} \f$, e being the error over the allowed one. A step of e > 1 is rolled
-/// back, and repeated with its length times 0.9/e or 0.1: after a sudden change the estimate is of first order.
+/// back and repeated with 0.9/e of its length, a tenth at least: after a sudden change the estimate is of first order.
 struct LoadStepping {
   double first = 1e-3;                      ///< load increment of the first step
   double smallest = 1e-7;                   ///< increment below which the run gives up

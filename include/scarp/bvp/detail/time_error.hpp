@@ -12,8 +12,9 @@ namespace scarp::detail {
 
 /// Estimate of the error that one step of backward Euler makes, \f$ \frac{\Delta t^2}{2} \ddot u \f$, by the rates of
 /// this step and of the last one in which time passed (Sloan and Abbo 1999, Int. J. Numer. Anal. Meth. Geomech. 23,
-/// 467). Before the first one the rates are 0, those of a state at rest: a ground that was loaded at once, or whose
-/// loads turn, has the error of first order \f$ \frac{\Delta t}{2} |\Delta \dot u| \f$, and begins in small steps.
+/// 467; they control displacements). Before the first one the rates are 0, those of a state at rest: a ground that was
+/// loaded at once, or whose loads turn, has the error of first order \f$ \frac{\Delta t}{2} |\Delta \dot u| \f$, and
+/// begins in small steps.
 class TimeError {
  public:
   using Values = Eigen::VectorXd;
