@@ -35,8 +35,9 @@ struct PoreWaterSettings {
   TimeFunction clock{};                  ///< time [s] over the load factor, not falling; the initial state is at 0 s
   std::optional<WaterAtRest> at_rest{};  ///< without it all ground has water, of any pressure
   /// Largest error of one time step in the pressure of any corner [Pa], estimated as
-  /// \f$ \frac{\Delta t}{2} |\dot u - \dot u_{before}| \f$: sizes the steps of `LoadStepping`. The largest counts and no
-  /// mean, so that ground far from where water flows does not hide it. Without it steps follow load factor and clock.
+  /// \f$ \frac{\Delta t}{2} |\dot u - \dot u_{before}| \f$: sizes the steps of `LoadStepping`. The largest counts and
+  /// no mean, so that ground far from where water flows does not hide it. Without it steps follow load factor and
+  /// clock.
   std::optional<double> largest_time_error{};
 
   /// \throws InputError for a modulus or an error that is not positive, times that are negative or fall, and wrong

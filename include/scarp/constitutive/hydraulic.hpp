@@ -32,7 +32,8 @@ struct Water {
     require_positive("unit weight of the pore water", unit_weight);
     require_positive("viscosity of the pore water", viscosity);
   }
-  /// By which it carries the grains of ground [N/m3], \f$ \gamma_w/(1+e) \f$: the buoyant unit weight of ground is its dry one less this.
+  /// By which it carries the grains of ground [N/m3], \f$ \gamma_w/(1+e) \f$: the buoyant unit weight of ground is its
+  /// dry one less this.
   double lift(double void_ratio) const { return unit_weight / (1.0 + void_ratio); }
   /// \f$ n/K_w,\; n = e/(1+e) \f$ [1/Pa]
   double storage(double void_ratio) const { return void_ratio / (1.0 + void_ratio) / bulk_modulus; }

@@ -51,8 +51,8 @@ double floor_share(Problem const& problem) {
 /// Work of the reactions at prescribed displacements per unit of their amplitude, the load factor where none is given
 /// [N], of the mesh's whole thickness: \f$ R = \sum_k \dot u_k r_k \f$ with the rate of each prescribed displacement
 /// and the nodal force of the stresses, and of a field such as water, in the committed state. Loads on these nodes, and
-/// what follows them, are not subtracted: of a fault, whose load factor is the throw, the difference to the ground at rest is what moving
-/// bedrock works against. On all ranks at once.
+/// what follows them, are not subtracted: of a fault, whose load factor is the throw, the difference to the ground at
+/// rest is what moving bedrock works against. On all ranks at once.
 template <class Problem>
 double generalised_reaction(Problem const& problem) {
   auto const& grid = problem.grid();

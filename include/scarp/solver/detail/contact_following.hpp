@@ -53,12 +53,16 @@ class ContactFollowing {
       if (iteration > 0 && (now.residual <= goal || body_.spent())) break;
       Way way;
       Tried next;
-      // A field's equations are linear here. Once they balance, they do so along every way: so the first one goes whole.
+      // A field's equations are linear here. Once they balance, they do so along every way: so the first one goes
+      // whole.
       bool const whole = iteration == 0 && problem_.has_field();
       bool const downhill = factorize(ground).acceptable() && lay(way, ground, now, more).acceptable() &&
                             (whole ? go_whole(way, goal, now, next) : go_downhill(way, now, next));
       if (!downhill) {  // also where the matrix is singular, since nothing but sliding points holds a body
         Verdict verdict = factorize(ground, problem_.stick_stiffness());
+        // A body without weight that the ground moves away from stays where it is.
+        if (verdict.reason == Reason::singular_system && body_.is_idle(now.unbalanced))
+          verdict = factorize(ground, problem_.stick_stiffness() + body_.in_place());
         if (verdict.acceptable()) verdict = lay(way, ground, now, more);
         if (!verdict.acceptable()) return verdict;
         if (whole) {

@@ -68,6 +68,17 @@ class StandingBalance {
   /// Whether the contacts of the last evaluation support the body in every direction.
   bool is_held() const { return own_.empty() || factors(problem_.attached_stiffness()).isInvertible(); }
 
+  /// Whether no force acts on attached bodies. unbalanced [N]: on all degrees of freedom
+  bool is_idle(Eigen::VectorXd const& unbalanced) const { return !own_.empty() && unbalanced(own_).isZero(0.0); }
+  /// A stiffness [N/m] that holds them where they are, of any size, since no force acts.
+  SparseMatrix in_place() const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int const dof : own_) entries.emplace_back(dof, dof, 1.0);
+    SparseMatrix stiffness(problem_.dof_count(), problem_.dof_count());
+    stiffness.setFromTriplets(entries.begin(), entries.end());
+    return stiffness;
+  }
+
   /// Begins the count of evaluations of the attachment, which are limited: a body that slides without friction, or on
   /// springs so stiff that round-off hides its imbalance, could be evaluated without end.
   void begin() { evaluations_ = 0; }
