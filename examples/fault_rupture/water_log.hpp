@@ -53,9 +53,10 @@ class WaterLog : public scarp::NeverStops {
   /// What the water did by the end of the throw, a minute later and at the end.
   void add_to(nlohmann::ordered_json& json) const {
     double const thrown = scene_.structure.times.rupture;
-    for (auto const& [when, time] : {std::pair("after_the_throw", thrown), std::pair("after_a_minute", thrown + 60.0),
-                                     std::pair("at_the_end", std::numeric_limits<double>::infinity())}) {
-      auto const end = std::ranges::find_if(rows_, [&](Row const& row) { return row[1] > time * (1.0 + 1e-6); });
+    for (auto const& [when, until] : {std::pair("after_the_throw", thrown), std::pair("after_a_minute", thrown + 60.0),
+                                      std::pair("at_the_end", std::numeric_limits<double>::infinity())}) {
+      double const last = until * (1.0 + 1e-6);
+      auto const end = std::ranges::find_if(rows_, [&](Row const& row) { return row[1] > last; });
       if (end == rows_.begin()) continue;
       for (std::size_t k = 0; k < names.size(); ++k) json["water"][when][names[k]] = (*std::prev(end))[k];
     }
