@@ -54,17 +54,8 @@ concept NamesField = requires {
 
 /// A `FieldAttachment` of any type.
 template <int Dim>
-class AttachedField {
+class AttachedField : public Attached<Dim> {
  public:
-  using Nodes = std::vector<Vector<Dim>>;
-  using Entries = std::vector<Eigen::Triplet<double>>;
-
-  virtual ~AttachedField() = default;
-  virtual int extra_dofs() const = 0;
-  virtual Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) = 0;
-  virtual void add_stiffness(Entries& entries) const = 0;
-  virtual void commit(Nodes const& nodes, Eigen::VectorXd const& increment) = 0;
-  virtual std::optional<double> thickness() const = 0;
   virtual void at(double load) = 0;
   virtual double next_knot(double load) const = 0;
   virtual double time_error() const = 0;  ///< 0 for what estimates none
@@ -73,13 +64,11 @@ class AttachedField {
   virtual std::string describe(int number) const = 0;
   virtual std::vector<NodalField> nodal_fields() const = 0;
   virtual Eigen::VectorXd ground_force() const = 0;
-  virtual void write(StateWriter& writer) const = 0;
-  virtual void read(StateReader& reader) = 0;
 
   /// first: its first degree of freedom
   /// \throws InputError for constraints of its degrees of freedom
   void require_free(Constraints const& constraints, int first) const {
-    for (int number = 0; number < extra_dofs(); ++number) {
+    for (int number = 0; number < this->extra_dofs(); ++number) {
       if (constraints.is_prescribed(first + number))
         reject("{} is prescribed by a constraint (the field knows its own boundaries): give it there",
                describe(number));
@@ -88,27 +77,16 @@ class AttachedField {
 };
 
 template <int Dim, class Part>
-class AttachedFieldOf final : public AttachedField<Dim> {
+class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
   static_assert(Attachment<Part, Dim> && FieldAttachment<Part>,
                 "scarp: an attachment that is a field needs extra_dofs(), add_forces(), add_stiffness() and commit(), "
                 "at(), next_knot(), name(), residual(), describe(), nodal_fields() and ground_force()");
+  using Base = AttachedAs<AttachedField<Dim>, Part>;
+  using Base::part_;
 
  public:
-  using typename AttachedField<Dim>::Nodes, typename AttachedField<Dim>::Entries;
+  using Base::Base;
 
-  explicit AttachedFieldOf(Part part) : part_(std::move(part)) {}
-  Part const& part() const { return part_; }
-
-  int extra_dofs() const override { return part_.extra_dofs(); }
-  Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) override {
-    return part_.add_forces(nodes, increment, forces);
-  }
-  void add_stiffness(Entries& entries) const override { part_.add_stiffness(entries); }
-  void commit(Nodes const& nodes, Eigen::VectorXd const& increment) override { part_.commit(nodes, increment); }
-  std::optional<double> thickness() const override {
-    if constexpr (requires { part_.thickness(); }) return part_.thickness();
-    return std::nullopt;
-  }
   void at(double load) override { part_.at(load); }
   double next_knot(double load) const override { return part_.next_knot(load); }
   double time_error() const override {
@@ -120,14 +98,9 @@ class AttachedFieldOf final : public AttachedField<Dim> {
   std::string describe(int number) const override { return part_.describe(number); }
   std::vector<NodalField> nodal_fields() const override { return part_.nodal_fields(); }
   Eigen::VectorXd ground_force() const override { return part_.ground_force(); }
-  void write(StateWriter& writer) const override { visit_attached(writer, part_); }
-  void read(StateReader& reader) override { visit_attached(reader, part_); }
-
- private:
-  Part part_;
 };
 
-/// What is attached to a mesh: a body or a load, and a field; null where there is none.
+/// What is attached to a mesh: at most one body or load, and at most one field.
 template <int Dim>
 struct Attachments {
   std::unique_ptr<AttachedPart<Dim>> part{};
@@ -186,7 +159,7 @@ struct Attachments {
     }
   }
 
-  /// Null where there is none of this type.
+  /// The attachment of this type; a null pointer if there is none.
   template <class Part>
   Part const* find() const {
     if constexpr (NamesField<Part>) {

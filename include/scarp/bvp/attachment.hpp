@@ -42,23 +42,31 @@ struct NoAttachment {};
 
 namespace detail {
 
-/// An `Attachment` of any type.
+/// What attachments of any type have in common.
 template <int Dim>
-class AttachedPart {
+class Attached {
  public:
   using Nodes = std::vector<Vector<Dim>>;
   using Entries = std::vector<Eigen::Triplet<double>>;
 
-  virtual ~AttachedPart() = default;
+  virtual ~Attached() = default;
   virtual int extra_dofs() const = 0;
   virtual Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) = 0;
   virtual void add_stiffness(Entries& entries) const = 0;
-  virtual void add_stick_stiffness(Entries& entries) const = 0;
   virtual void commit(Nodes const& nodes, Eigen::VectorXd const& increment) = 0;
   virtual std::optional<double> thickness() const = 0;
-  virtual std::optional<double> length() const = 0;
   virtual void write(StateWriter& writer) const = 0;
   virtual void read(StateReader& reader) = 0;
+};
+
+/// A body or load of any type.
+template <int Dim>
+class AttachedPart : public Attached<Dim> {
+ public:
+  using typename Attached<Dim>::Entries;
+
+  virtual void add_stick_stiffness(Entries& entries) const = 0;
+  virtual std::optional<double> length() const = 0;
 };
 
 /// \throws InputError for another thickness [m] than the mesh's
@@ -69,9 +77,9 @@ void require_thickness(Grid<Dim> const& grid, std::optional<double> own) {
            grid.thickness());
 }
 
-/// A stiffness [N/m] of what is attached, nothing where that is null, shape (size, size).
-template <class Part>
-Eigen::SparseMatrix<double> assembled(Part const* part, void (Part::*add)(std::vector<Eigen::Triplet<double>>&) const,
+/// A stiffness [N/m] of what is attached, zero without it, shape (size, size).
+template <class Part, class Class>
+Eigen::SparseMatrix<double> assembled(Part const* part, void (Class::*add)(std::vector<Eigen::Triplet<double>>&) const,
                                       int size) {
   std::vector<Eigen::Triplet<double>> entries;
   if (part) (part->*add)(entries);
@@ -90,43 +98,54 @@ void visit_attached(Visit& visit, Part& part) {
   }
 }
 
-template <int Dim, class Part>
-class AttachedPartOf final : public AttachedPart<Dim> {
-  static_assert(Attachment<Part, Dim>,
-                "scarp: what is attached needs extra_dofs(), add_forces(), add_stiffness() and commit()");
-
+/// The common part of an attachment of one type.
+/// \tparam Kind `AttachedPart` or `AttachedField`
+template <class Kind, class Part>
+class AttachedAs : public Kind {
  public:
-  using typename AttachedPart<Dim>::Nodes, typename AttachedPart<Dim>::Entries;
+  using typename Kind::Nodes, typename Kind::Entries;
 
-  explicit AttachedPartOf(Part part) : part_(std::move(part)) {}
+  explicit AttachedAs(Part part) : part_(std::move(part)) {}
   Part const& part() const { return part_; }
 
-  int extra_dofs() const override { return part_.extra_dofs(); }
-  Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) override {
+  int extra_dofs() const final { return part_.extra_dofs(); }
+  Verdict add_forces(Nodes const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) final {
     return part_.add_forces(nodes, increment, forces);
   }
-  void add_stiffness(Entries& entries) const override { part_.add_stiffness(entries); }
-  void add_stick_stiffness(Entries& entries) const override {
+  void add_stiffness(Entries& entries) const final { part_.add_stiffness(entries); }
+  void commit(Nodes const& nodes, Eigen::VectorXd const& increment) final { part_.commit(nodes, increment); }
+  std::optional<double> thickness() const final {
+    if constexpr (requires { part_.thickness(); }) return part_.thickness();
+    return std::nullopt;
+  }
+  void write(StateWriter& writer) const final { visit_attached(writer, part_); }
+  void read(StateReader& reader) final { visit_attached(reader, part_); }
+
+ protected:
+  Part part_;
+};
+
+template <int Dim, class Part>
+class AttachedPartOf final : public AttachedAs<AttachedPart<Dim>, Part> {
+  static_assert(Attachment<Part, Dim>,
+                "scarp: what is attached needs extra_dofs(), add_forces(), add_stiffness() and commit()");
+  using Base = AttachedAs<AttachedPart<Dim>, Part>;
+  using Base::part_;
+
+ public:
+  using Base::Base;
+
+  void add_stick_stiffness(typename Base::Entries& entries) const override {
     if constexpr (requires { part_.add_stick_stiffness(entries); }) {
       part_.add_stick_stiffness(entries);
     } else {
       part_.add_stiffness(entries);
     }
   }
-  void commit(Nodes const& nodes, Eigen::VectorXd const& increment) override { part_.commit(nodes, increment); }
-  std::optional<double> thickness() const override {
-    if constexpr (requires { part_.thickness(); }) return part_.thickness();
-    return std::nullopt;
-  }
   std::optional<double> length() const override {
     if constexpr (requires { part_.length(); }) return part_.length();
     return std::nullopt;
   }
-  void write(StateWriter& writer) const override { visit_attached(writer, part_); }
-  void read(StateReader& reader) override { visit_attached(reader, part_); }
-
- private:
-  Part part_;
 };
 
 }  // namespace detail
