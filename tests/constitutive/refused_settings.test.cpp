@@ -81,7 +81,7 @@ TEST_CASE("settings of a packing's tangent that cannot be are refused") {
       {
           {[](Trial& rve) { rve.tangent_policy.strain = not_a_number; }, "strain of a packing's modes is nan"},
           {[](Trial& rve) { rve.tangent_policy.strain_steps = 0; }, "number of steps that strain a packing is 0"},
-          {[](Trial& rve) { rve.tangent_policy.unbalanced_tolerance = 0.0; }, "of a settled packing is 0"},
+          {[](Trial& rve) { rve.tangent_policy.unbalanced_tolerance = 0.0; }, "of a packing at rest is 0"},
           {[](Trial& rve) { rve.tangent_policy.max_steps = 0; }, "most steps of a settling is 0"},
           {[](Trial& rve) { rve.tangent_policy.check_every = 0; }, "between looks at the balance is 0"},
       });

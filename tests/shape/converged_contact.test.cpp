@@ -110,7 +110,7 @@ double worst_followed(scarp::SizeOf<Shape> const& size, double pace, std::uint64
 
 }  // namespace
 
-TEST_CASE("the settled touch of ellipses is the least overlap of all directions, also of needles") {
+TEST_CASE("the converged touch of ellipses is the least overlap of all directions, also of needles") {
   // The search without derivatives finds the least value to round-off; positions of 3 sizes.
   for (double const aspect : {1.0, 0.6, 0.4, 0.2, 0.1, 0.05}) {
     CAPTURE(aspect);
@@ -118,7 +118,7 @@ TEST_CASE("the settled touch of ellipses is the least overlap of all directions,
   }
 }
 
-TEST_CASE("the settled touch of superellipses is the least overlap of all directions, at cusps and flat sides too") {
+TEST_CASE("the converged touch of superellipses is the least overlap of all directions, at cusps and flat sides too") {
   for (double const exponent : {0.2, 0.6, 1.0, 1.4, 1.8}) {
     for (double const aspect : {1.0, 0.3, 0.05}) {
       CAPTURE(exponent);
@@ -128,7 +128,7 @@ TEST_CASE("the settled touch of superellipses is the least overlap of all direct
   }
 }
 
-TEST_CASE("the settled touch of a user's shape is the least overlap of all directions") {
+TEST_CASE("the converged touch of a user's shape is the least overlap of all directions") {
   for (double const epsilon : {0.0, 0.15, 0.33}) {
     CAPTURE(epsilon);
     CHECK(samples::worst_touch<Oval>({1.0, epsilon}, 40, 33) < 1e-13);

@@ -21,7 +21,7 @@ enum class Status : std::uint8_t {
 enum class Reason : std::uint8_t {
   none,                ///< the status is ok
   no_contacts,         ///< no contact carries force
-  unbalanced,          ///< the packing did not settle to the tolerance on the unbalanced ratio
+  unbalanced,          ///< the packing did not come to rest within the tolerance on the unbalanced ratio
   unreachable,         ///< a servo target was not reached within the allowed work
   not_finite,          ///< NaN or infinity in state or response
   unconverged_normal,  ///< the search for a contact's normal did not come to its end

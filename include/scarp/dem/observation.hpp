@@ -19,7 +19,7 @@ struct ContactSums {
   Tensor<Dim> moment = Tensor<Dim>::Zero();  ///< force on the second grain (x) branch [N m]
   double force = 0.0;                        ///< |force| [N]
   double contacts = 0.0;                     ///< number that carry a normal force
-  bool settled = true;                       ///< whether every contact normal converged
+  bool converged = true;                     ///< whether every contact normal converged
   double deepest = 0.0;                      ///< largest overlap over the reduced radius of its contact
   double stored = 0.0;                       ///< [J], only with Observe::energy
   double dissipated = 0.0;                   ///< during the step [J], only with Observe::energy

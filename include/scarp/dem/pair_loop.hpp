@@ -101,7 +101,7 @@ class PairResponse {
 
   ContactSums<dim> total() const {
     auto sums = sums_.total();
-    sums.settled = settled_;
+    sums.converged = converged_;
     return sums;
   }
 
@@ -143,7 +143,7 @@ class PairResponse {
       read(Block::normal, pair, normal);
       auto const touch = converged_contact<Shape>(first, second, branch, normal);
       if (!std::isfinite(touch.overlap)) continue;  // of grains that are lost: seen where they move
-      settled_ = settled_ && touch.normal_error == 0.0;
+      converged_ = converged_ && touch.normal_error == 0.0;
       block.fields[Block::overlap][pair] = static_cast<Scalar>(touch.overlap);
       for (std::size_t a = 0; a < axes; ++a) {
         block.fields[Block::normal + a][pair] = static_cast<Scalar>(touch.normal[a]);
@@ -168,7 +168,7 @@ class PairResponse {
   LaneSums<dim, Lanes> sums_;
   double largest_normal_change_;
   double unique_minimum_depth_;
-  bool settled_ = true;
+  bool converged_ = true;
 };
 
 }  // namespace detail

@@ -160,7 +160,7 @@ class TimeStepper {
   Verdict look(PackingType& packing, Law const& law, StepObservation<dim>* observed) {
     if (Verdict const verdict = refresh_here(packing, law); !verdict.acceptable()) return verdict;
     ContactSums<dim> const sums = pair_forces<what>(packing, law, scratch_);
-    if (!sums.settled) return {Status::failed, Reason::unconverged_normal};
+    if (!sums.converged) return {Status::failed, Reason::unconverged_normal};
     boundary.constrain(std::as_const(packing), GrainHolds<PackingType>(packing, scratch_.forces.data()));
     if constexpr (what != Observe::nothing)
       *observed = observation(packing, sums, NetForces<PackingType>{scratch_.forces.data()});

@@ -231,7 +231,7 @@ struct DeviceRve {
       case Trouble::not_finite: return fail(request, Reason::not_finite);
       case Trouble::cell_collapsed: return fail(request, Reason::cell_collapsed);
       case Trouble::lost_grain: return fail(request, Reason::lost_grain);
-      case Trouble::unsettled_touch:
+      case Trouble::unconverged_touch:
       case Trouble::list_full: return respond_here(request);
     }
     auto& outline = request.trial->outline;

@@ -7,7 +7,7 @@
 
 namespace scarp {
 
-/// Derivative of a packing's stress by trial: a copy is settled, then strained a little in each mode and settled again.
+/// Derivative of a packing's stress by trial: a copy comes to rest, is strained a little in each mode and comes to rest again.
 /// The stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are in the tangent.
 /// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
 /// \tparam Boundary a `ConstrainsGrains`
@@ -17,7 +17,7 @@ struct PerturbationTangent {
       1e-5;  ///< engineering, of each mode; no plateau where contacts slide, see docs/theory/homogenisation.md
   int strain_steps = 20;  ///< time steps that apply it
   double unbalanced_tolerance =
-      1e-6;                ///< of settled packings: times the stress it must stay well below stiffness x strain
+      1e-6;                ///< of packings at rest: times the stress it must stay well below stiffness x strain
   int max_steps = 50'000;  ///< of each settling
   int check_every = 50;    ///< steps between looks at the balance
   Damping damping{};       ///< of the trials, whatever damping the packing responds with
@@ -28,20 +28,20 @@ struct PerturbationTangent {
   void validate() const {
     require_positive("strain of a packing's modes", strain);
     require_at_least("number of steps that strain a packing", strain_steps, 1);
-    require_positive("unbalanced tolerance of a settled packing", unbalanced_tolerance);
+    require_positive("unbalanced tolerance of a packing at rest", unbalanced_tolerance);
     require_at_least("most steps of a settling", max_steps, 1);
     require_at_least("number of steps between looks at the balance", check_every, 1);
     detail::validated(damping);
     detail::validated(boundary);
   }
 
-  /// Central differences. What was reached by then is used where a packing does not settle, after `on_fallback` was
+  /// Central differences. What was reached by then is used where a packing does not come to rest, after `on_fallback` was
   /// called.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const result = differentiate(packing, law);
     if (!result.verdict.acceptable() && on_fallback != nullptr) {
-      on_fallback("a packing did not settle while its tangent was evaluated by perturbation", result.verdict);
+      on_fallback("a packing did not come to rest while its tangent was evaluated by perturbation", result.verdict);
     }
     return result.tangent;
   }
@@ -63,7 +63,7 @@ struct PerturbationTangent {
     TimeStepper<PackingType, Damping, Boundary> stepper;
     stepper.damping = damping;
     stepper.boundary = boundary;
-    auto const settled_stress = [&](PackingType& grains) {
+    auto const stress_at_rest = [&](PackingType& grains) {
       StepObservation<dim> seen;
       for (int step = 0; step < max_steps; ++step) {
         bool const looks = step % check_every == 0;
@@ -79,7 +79,7 @@ struct PerturbationTangent {
     };
     PackingType base = packing;
     verdict = stepper.stop(base, law);
-    VoigtStress<dim> const start = settled_stress(base);
+    VoigtStress<dim> const start = stress_at_rest(base);
     for (int k = 0; k < voigt_size<dim>; ++k) {
       auto const stress_at = [&](double amount) -> VoigtStress<dim> {
         PackingType grains = base;
@@ -90,7 +90,7 @@ struct PerturbationTangent {
         }
         taken += strain_steps;
         if (Verdict const stopped = stepper.stop(grains, law); verdict.acceptable()) verdict = stopped;
-        return settled_stress(grains);
+        return stress_at_rest(grains);
       };
       if (towards(k) == 0.0) {
         result.tangent.col(k) = (stress_at(strain) - stress_at(-strain)) / (2.0 * strain);

@@ -39,7 +39,7 @@ struct IsotropicRecipe {
   typename PackingType::Law law{};     ///< contact law of the grains
   Damping damping{};                   ///< of the grains' motion
 
-  /// Packing of one seed, or the reason why it did not settle.
+  /// Packing of one seed, or the reason why it did not come to rest.
   Prepared<PackingType> operator()(std::uint64_t seed) const {
     Cloud<Grading> own = cloud;
     own.seed = seed;
@@ -89,10 +89,10 @@ struct RandomPackings {
   Recipe recipe{};         ///< prepares a packing from a seed
   std::uint64_t seed = 1;  ///< of the family of seeds, one for each point
 
-  /// \throws PreparationError, naming the point, when its packing does not settle
+  /// \throws PreparationError, naming the point, when its packing does not come to rest
   Packing at(Site<Packing::dim> const& site) const {
     auto prepared = recipe(family_seed(seed, static_cast<std::uint64_t>(site.index)));
-    return settled(std::move(prepared), "of point", site.index);
+    return of_outcome(std::move(prepared), "of point", site.index);
   }
 
   /// \throws PreparationError, naming the number in the pool; InputError for a pool of no packings
@@ -103,14 +103,14 @@ struct RandomPackings {
         count, [&](int k) { prepared[detail::index(k)] = recipe(family_seed(seed, static_cast<std::uint64_t>(k))); });
     RandomChoice<SamePacking<Packing>> choice{{}, family_seed(seed, static_cast<std::uint64_t>(count))};
     for (int k = 0; k < count; ++k) {
-      choice.sources.push_back({settled(std::move(*prepared[detail::index(k)]), "in the pool, number", k)});
+      choice.sources.push_back({of_outcome(std::move(*prepared[detail::index(k)]), "in the pool, number", k)});
     }
     return choice;
   }
 
  private:
   template <class Outcome>
-  static Packing settled(Outcome&& outcome, char const* what, int number) {
+  static Packing of_outcome(Outcome&& outcome, char const* what, int number) {
     Verdict const verdict = outcome.verdict;
     if (!verdict.acceptable()) {
       throw PreparationError(

@@ -90,7 +90,7 @@ class StoredPacking {
   void place(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
     TimeStepper<PackingType, typename Device::Damping> const stepper;
     header_ = {};
-    header_.trouble = Trouble::unsettled_touch;  // until the device has it, the processor responds
+    header_.trouble = Trouble::unconverged_touch;  // until the device has it, the processor responds
     PackingType listed = packing_;
     if (!stepper.refresh(listed, parameters.law).acceptable()) return;
     auto const room = device->room(static_cast<int>(listed.grain_count()), static_cast<int>(listed.pairs.count()));

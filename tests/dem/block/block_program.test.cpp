@@ -115,7 +115,7 @@ TEST_CASE("a block ends with its trouble") {
     sample.size.pairs *= 8;
     Tensor<2> strain = Tensor<2>::Zero();
     strain(0, 0) = -0.6;
-    CHECK(trouble_of(sample, strain) == scarp::Trouble::unsettled_touch);
+    CHECK(trouble_of(sample, strain) == scarp::Trouble::unconverged_touch);
   }
   SUBCASE("a list that is too long") {
     sample.size.pairs = static_cast<int>(sample.packing.pairs.count());

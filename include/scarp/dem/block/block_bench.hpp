@@ -49,7 +49,7 @@ struct BlockBench {
   Array<std::uint16_t> incident{};  ///< pairs of a grain, twice their number, and one more where it is the second grain
   Array<int> begin{};               ///< of a grain's pairs in `incident`
   Array<int> count{};               ///< of each grain's pairs
-  Array<int> unsettled{};           ///< touches whose normal was not found
+  Array<int> unconverged{};         ///< touches whose normal was not found
   Array<Scalar> force{};            ///< of pairs: force, torque on the first, torque on the second
   Array<int> moved{};               ///< cells that a grain is moved by; before the new list
   Array<Scalar> new_normal{};       ///< of the new list's pairs
@@ -82,7 +82,7 @@ struct BlockBench {
     place(incident, 1, 2 * pairs);
     place(begin, 1, grains + 1);
     place(count, 1, grains + 1);
-    place(unsettled, 1, 1);
+    place(unconverged, 1, 1);
     int const scratch = at;
     place(force, Types::forces, pairs);
     at = scratch;

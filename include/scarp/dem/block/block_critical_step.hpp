@@ -47,8 +47,8 @@ SCARP_HOST_DEVICE constexpr double block_critical_step(BlockWork<Types, Team> co
     int const j = second / Types::parts;
     auto const pose_first = work.template pose<double>(first);
     auto const pose_second = work.template pose<double>(second);
-    auto const touch = settled_touch<Shape>(pose_first, pose_second, work.template branch<double>(i, j, b.shift[p]),
-                                            work.template normal<double>(p))
+    auto const touch = converged_touch<Shape>(pose_first, pose_second, work.template branch<double>(i, j, b.shift[p]),
+                                              work.template normal<double>(p))
                            .touch;
     double const radius_first = Shape::contact_radius(pose_first);
     double const radius_second = Shape::contact_radius(pose_second);

@@ -214,10 +214,10 @@ class BlockList {
         Point<dim, double> start{};
         for (std::size_t a = 0; a < axes; ++a) start[a] = distance > 0.0 ? branch[a] / distance : (a == 0 ? 1.0 : 0.0);
         if (Types::normals > 0 && known >= 0) start = w_.template normal<double>(known);
-        auto const settled =
-            settled_touch<Shape>(w_.template pose<double>(first), w_.template pose<double>(second), branch, start);
-        if (settled.is_certain && settled.touch.overlap < -reach) continue;
-        visit(first, second, image, settled, known);
+        auto const converged =
+            converged_touch<Shape>(w_.template pose<double>(first), w_.template pose<double>(second), branch, start);
+        if (converged.is_certain && converged.touch.overlap < -reach) continue;
+        visit(first, second, image, converged, known);
       }
     }
   }
@@ -226,15 +226,15 @@ class BlockList {
     bool is_certain = true;
     each(w_.team, w_.grain_count, [&](int i) {
       int found = 0;
-      visit_near(i, [&](int, int, int, SettledTouch<dim> const& settled, int) {
+      visit_near(i, [&](int, int, int, ConvergedTouch<dim> const& converged, int) {
         ++found;
-        is_certain = is_certain && settled.is_certain;
+        is_certain = is_certain && converged.is_certain;
       });
       b_.count[i] = found;
     });
     auto const uncertain = w_.team.largest(std::array{is_certain ? std::uint64_t{0} : std::uint64_t{1}})[0];
     if (uncertain != 0) {
-      w_.trouble = Trouble::unsettled_touch;
+      w_.trouble = Trouble::unconverged_touch;
       return;
     }
     next_count_ = 0;
@@ -249,7 +249,7 @@ class BlockList {
       int at = 0;
       for (int k = 0; k < i; ++k) at += b_.count[k];
       int const start = at;
-      visit_near(i, [&](int first, int second, int image, SettledTouch<dim> const& settled, int known) {
+      visit_near(i, [&](int first, int second, int image, ConvergedTouch<dim> const& converged, int known) {
         int to = at++;
         for (; to > start &&
                name(b_.new_first[to - 1], b_.new_second[to - 1], b_.new_shift[to - 1]) > name(first, second, image);
@@ -259,7 +259,7 @@ class BlockList {
         b_.new_second[to] = static_cast<std::uint16_t>(second);
         b_.new_shift[to] = static_cast<std::uint8_t>(image);
         for (int k = 0; k < Types::normals; ++k)
-          b_.new_normal(k, to) = static_cast<Scalar>(settled.touch.normal[static_cast<std::size_t>(k)]);
+          b_.new_normal(k, to) = static_cast<Scalar>(converged.touch.normal[static_cast<std::size_t>(k)]);
         for (int k = 0; k < Types::memories; ++k) b_.new_memory(k, to) = known >= 0 ? b_.memory(k, known) : Scalar(0);
       });
     });

@@ -33,7 +33,7 @@ SCARP_HOST_DEVICE constexpr void each_memory(ContactMemory<Types::dim, Scalar>& 
 /// Iterates the normal of a pair for which one step is not enough. Rare; its arguments are values, since the loop over
 /// pairs would otherwise keep its numbers in memory.
 template <class Shape, class Scalar>
-[[gnu::noinline, gnu::cold]] SCARP_HOST_DEVICE constexpr SettledTouch<Shape::dim> settle(
+[[gnu::noinline, gnu::cold]] SCARP_HOST_DEVICE constexpr ConvergedTouch<Shape::dim> converge(
     PoseOf<Shape, Scalar> first, PoseOf<Shape, Scalar> second, Point<Shape::dim, Scalar> branch,
     Point<Shape::dim, Scalar> normal) {
   auto const in_double = []<std::size_t Count>(std::array<Scalar, Count> const& numbers) {
@@ -41,7 +41,7 @@ template <class Shape, class Scalar>
     for (std::size_t k = 0; k < Count; ++k) values[k] = static_cast<double>(numbers[k]);
     return values;
   };
-  return settled_touch<Shape>(in_double(first), in_double(second), in_double(branch), in_double(normal));
+  return converged_touch<Shape>(in_double(first), in_double(second), in_double(branch), in_double(normal));
 }
 
 /// Where a pair touches, from its stored normal, which is brought up to date.
@@ -55,14 +55,14 @@ SCARP_HOST_DEVICE constexpr void find_touch(BlockWork<Types, Team> const& work,
     auto& touch = pair.touch;
     if (touch.normal_error > static_cast<Scalar>(work.grains.largest_normal_change) ||
         touch.overlap > static_cast<Scalar>(work.grains.unique_minimum_depth)) [[unlikely]] {
-      auto const settled = settle<Shape, Scalar>(pair.pose_first, pair.pose_second, pair.branch, touch.normal);
-      if (settled.touch.overlap - settled.touch.overlap ==
+      auto const converged = converge<Shape, Scalar>(pair.pose_first, pair.pose_second, pair.branch, touch.normal);
+      if (converged.touch.overlap - converged.touch.overlap ==
           0.0) {  // else grains are lost, which is seen where they move
-        if (!settled.is_certain) work.team.take(work.bench.unsettled[0]);
-        touch.overlap = static_cast<Scalar>(settled.touch.overlap);
+        if (!converged.is_certain) work.team.take(work.bench.unconverged[0]);
+        touch.overlap = static_cast<Scalar>(converged.touch.overlap);
         for (std::size_t a = 0; a < touch.normal.size(); ++a) {
-          touch.normal[a] = static_cast<Scalar>(settled.touch.normal[a]);
-          touch.arm_first[a] = static_cast<Scalar>(settled.touch.arm_first[a]);
+          touch.normal[a] = static_cast<Scalar>(converged.touch.normal[a]);
+          touch.arm_first[a] = static_cast<Scalar>(converged.touch.arm_first[a]);
           touch.arm_second[a] = touch.arm_first[a] - pair.branch[a];
         }
       }

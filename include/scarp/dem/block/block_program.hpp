@@ -83,7 +83,7 @@ class BlockProgram {
     });
     each(w_.team, w_.grain_count, [&](int i) { w_.write_pose(orientation_, i); });
     w_.write_offsets();
-    if (w_.team.rank() == 0) b.unsettled[0] = 0;
+    if (w_.team.rank() == 0) b.unconverged[0] = 0;
     detail::write_incidence(w_);  // with barriers, after which all threads see what was copied
     ready_damping();
   }
@@ -183,7 +183,7 @@ class BlockProgram {
     for (std::size_t k = 0; k < square; ++k) stretch[k] = static_cast<Scalar>(cell_step[k]);
     Scalar fastest(0);
     Scalar fastest_spin(0);
-    bool const is_settled = w_.bench.unsettled[0] == 0;  // before the barrier after which the next step counts
+    bool const is_converged = w_.bench.unconverged[0] == 0;  // before the barrier after which the next step counts
     auto const here = w_;
     auto const damping = damping_;
     auto* const orientation = orientation_;
@@ -231,7 +231,7 @@ class BlockProgram {
     w_.drift += 2.0 * time_step * (speed + spin * w_.grains.largest_eccentricity);
     w_.drift += strain_size * (2.0 * w_.grains.largest_radius + w_.skin + w_.reach);
     if (!(speed < std::numeric_limits<double>::infinity())) w_.trouble = Trouble::not_finite;
-    if (!is_settled) w_.trouble = Trouble::unsettled_touch;
+    if (!is_converged) w_.trouble = Trouble::unconverged_touch;
     last_gradient_ = strain_step;
     last_duration_ = time_step;
     applied_ = false;
@@ -259,7 +259,7 @@ class BlockProgram {
     });
     applied_ = true;
     auto const most = w_.team.largest(std::array{ordered_bits(deepest)});
-    if (w_.bench.unsettled[0] != 0) w_.trouble = Trouble::unsettled_touch;
+    if (w_.bench.unconverged[0] != 0) w_.trouble = Trouble::unconverged_touch;
     auto const balance = w_.team.template sum<square + 1>([&](int lane) {
       std::array<double, square + 1> own{};
       for (int i = lane; i < here.grain_count; i += lane_total) {

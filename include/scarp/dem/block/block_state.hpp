@@ -42,7 +42,7 @@ struct BlockSize {
 };
 
 /// Why a block stopped. A verdict follows from the first four; what is left the vector kernel responds to.
-enum class Trouble : std::int32_t { none, not_finite, cell_collapsed, lost_grain, unsettled_touch, list_full };
+enum class Trouble : std::int32_t { none, not_finite, cell_collapsed, lost_grain, unconverged_touch, list_full };
 
 /// What a state holds beside arrays, and what a response has observed.
 template <int Dim>

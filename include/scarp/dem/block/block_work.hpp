@@ -10,17 +10,17 @@ namespace scarp {
 
 /// A touch whose normal was iterated.
 template <int Dim>
-struct SettledTouch {
+struct ConvergedTouch {
   ContactGeometry<Dim, double> touch;  ///< by the last step of the iteration
   bool is_certain;                     ///< whether its overlap is the least: else a slow search must decide
 };
 
 /// Touch of a pair as `converged_contact` finds it, without the slow search, whose memory grows.
 template <class Shape>
-SCARP_HOST_DEVICE constexpr SettledTouch<Shape::dim> settled_touch(PoseOf<Shape> const& first,
-                                                                   PoseOf<Shape> const& second,
-                                                                   Point<Shape::dim, double> const& branch,
-                                                                   Point<Shape::dim, double> const& start) {
+SCARP_HOST_DEVICE constexpr ConvergedTouch<Shape::dim> converged_touch(PoseOf<Shape> const& first,
+                                                                       PoseOf<Shape> const& second,
+                                                                       Point<Shape::dim, double> const& branch,
+                                                                       Point<Shape::dim, double> const& start) {
   auto touch = Shape::touch(first, second, branch, start);
   if constexpr (!Shape::warm_starts_normal) {
     return {touch, true};

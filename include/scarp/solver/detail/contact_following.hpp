@@ -159,7 +159,7 @@ class ContactFollowing {
     Tried now;
     now.increment = way.start + share * way.direction;
     Eigen::VectorXd const of_ground = way.ground_at_start + share * way.ground_along;
-    body_.settle(now.increment, -of_ground, 0.1 * accuracy_);
+    body_.solve(now.increment, -of_ground, 0.1 * accuracy_);
     now.unbalanced = of_ground + problem_.attached_forces(now.increment);
     now.residual = problem_.force_residual(now.unbalanced);
     now.beside = problem_.residual_beside(now.unbalanced);

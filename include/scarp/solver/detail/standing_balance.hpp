@@ -87,7 +87,7 @@ class StandingBalance {
   /// Moves the entries of attached bodies in an increment [m]; loads [N]: on all degrees of freedom.
   /// The attachment's trial state then belongs to the increment.
   /// \return whether they balance, to `accuracy` of the loads of attached bodies
-  bool settle(Eigen::VectorXd& increment, Eigen::VectorXd const& loads, double accuracy) {
+  bool solve(Eigen::VectorXd& increment, Eigen::VectorXd const& loads, double accuracy) {
     if (own_.empty()) return true;
     loads_ = loads(own_);
     double const enough = accuracy * loads_.norm();
