@@ -54,7 +54,7 @@ struct MaterialOfStudy<Shape, scarp::HertzMindlin<>> {
     constexpr double overlap = 5e-3 / 75.0;
     constexpr double reduced_radius = 2.5e-3;
     double const reduced_modulus = 0.75 * stiffness_of_study<Shape> / std::sqrt(reduced_radius * overlap);
-    return scarp::HertzMindlin<>::of(2.0 * (1.0 - 0.2 * 0.2) * reduced_modulus, 0.2, 0.55);
+    return scarp::HertzMindlin<>::of({.modulus = 2.0 * (1.0 - 0.2 * 0.2) * reduced_modulus, .poisson = 0.2}, 0.55);
   }
 };
 template <class Shape, class Law>

@@ -120,7 +120,9 @@ using Law = scarp::HertzMindlin<scarp::HertzRestitution>;
 using DampedDiscs = scarp::Packing<scarp::Disc, Law>;
 using Rve = scarp::DemRve<DampedDiscs, scarp::SamePacking<DampedDiscs>>;
 
-Law dashpot_law(double restitution) { return Law::of(7e9, 0.2, 0.55, {.restitution = restitution}); }
+Law dashpot_law(double restitution) {
+  return Law::of({.modulus = 7e9, .poisson = 0.2}, 0.55, {.restitution = restitution});
+}
 
 /// At rest under 200 kPa, prepared without dashpots, which need a third of the time step.
 scarp::Prepared<DampedDiscs> at_rest(double restitution, int grains) {
@@ -254,10 +256,11 @@ Cases grain_cases() {
   all.push_back(default_step("rolling resistance",
                              scarp::RollingResistance<scarp::LinearFrictional>{
                                  .law = springs, .rolling_stiffness = 6e6 * 25e-6, .rolling_friction = endless}));
-  all.push_back(default_step("Hertz and Mindlin", scarp::HertzMindlin<>::of(7e9, 0.2, endless)));
+  all.push_back(
+      default_step("Hertz and Mindlin", scarp::HertzMindlin<>::of({.modulus = 7e9, .poisson = 0.2}, endless)));
   for (double const restitution : {0.9, 0.5, 0.1}) {
     all.push_back(default_step(fmt::format("Hertz and Mindlin, restitution {}", restitution),
-                               Law::of(7e9, 0.2, endless, {.restitution = restitution})));
+                               Law::of({.modulus = 7e9, .poisson = 0.2}, endless, {.restitution = restitution})));
   }
   return all;
 }

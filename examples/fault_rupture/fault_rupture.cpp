@@ -118,6 +118,11 @@ void read_sand(CLI::App& app, Choice& choice) {
     auto const option = options.find(name);
     if (option != options.end()) app.get_option(option->second)->default_str(fmt::format("{}", value));
   });
+  if (choice.water_table && sand.conductivity > 0.0 && app.count("--conductivity") == 0) {
+    auto const flow = scarp::KozenyCarman::of_conductivity(sand.conductivity, sand.conductivity_void_ratio);
+    choice.conductivity = flow.mobility(choice.void_ratio) * flow.water.unit_weight;
+    app.get_option("--conductivity")->default_str(fmt::format("{}", choice.conductivity));
+  }
   static_cast<void>(fault_rupture::sand_of(choice));  // other shapes and laws are rejected now
 }
 

@@ -139,8 +139,10 @@ scarp::BudgetParts sensitivity_parts(SensitivityResults const& results, double s
   scarp::BudgetParts parts;
   auto const add = [&](char const* name, double bound, char const* meaning) {
     auto const found = results.find(name);
-    if (found != results.end())
-      parts.push_back(scarp::sensitivity_part(name, surface_x50, found->second.surface_x50, depth, bound, meaning));
+    if (found == results.end()) return;
+    scarp::Sensitivity const change{
+        .own = surface_x50, .other = found->second.surface_x50, .size = depth, .bound = bound};
+    parts.push_back(change.part(name, meaning));
   };
   add("mesh", bounds.mesh, "surface_x50 on a mesh of other directions, over the depth of the ground");
   add("load_step", bounds.load_step, "surface_x50 with smaller load steps, over the depth of the ground");

@@ -48,6 +48,10 @@ inline void declare_site(CLI::App& app, Choice& choice) {
   of_water("--slip-rate", choice.slip_rate, "of a fault below wet ground [m/s]", number_from(1e-15, true, 100.0));
   of_water("--drain", choice.drain, "time after the rupture in which the bedrock rests and water drains [s]",
            number_from(0.0, true, 1e12));
+  app.add_option("--largest-time-error", choice.largest_time_error,
+                 "estimated, of the pore pressures in one time step [Pa]; sizes the load steps of wet ground")
+      ->check(number_from(0.0, false, 1e9))
+      ->needs(table);
 }
 
 /// Places that follow from ground and fault where they are not given, as the reference study has them relative to the tip and to the

@@ -30,7 +30,7 @@ struct Free {
     double* found = nullptr;
     examples::for_each_option(sand, [&](std::string const& option, auto& member, examples::Range, char const*) {
       if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, double>) {
-        if (option == name) found = &member;
+        if (option == name && !examples::is_of_file(name)) found = &member;
       }
     });
     if (found == nullptr) scarp::reject("--free names '{}' (no number of a sand): see --help for its options", name);

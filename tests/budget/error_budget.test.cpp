@@ -291,5 +291,5 @@ TEST_CASE("bounds that are negative or no number are refused, by name") {
   CHECK_REFUSED(scarp::ErrorBudget(points, {.residual = -1.0}), "budget's residual is -1");
   CHECK_REFUSED(scarp::ErrorBudget(points, {.accumulated = std::nan("")}), "budget's accumulated is nan");
   CHECK_NOTHROW(scarp::ErrorBudget(points, {.mesh = std::numeric_limits<double>::infinity()}));
-  CHECK_REFUSED(scarp::sensitivity_part("mesh", -14.0, -15.0, 25.0, std::nan(""), "place"), "bound", "is nan");
+  CHECK_REFUSED((scarp::Sensitivity{-14.0, -15.0, 25.0, std::nan("")}.part("mesh", "place")), "bound", "is nan");
 }

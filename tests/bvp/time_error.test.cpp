@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../../examples/consolidation/column.hpp"
+#include "scarp/budget/error_budget.hpp"
 #include "scarp/element/quad8.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
@@ -166,6 +167,37 @@ TEST_CASE("a time step of too large an error is rolled back and repeated with a 
       CHECK(now.verdict.reason == Reason::time_error);
       CHECK(share == Approx(std::max(0.9 / now.time_error, 0.1)).epsilon(1e-6));
     }
+  }
+}
+
+TEST_CASE("an error budget knows the residual of the water and its largest error in time") {
+  auto const grid = column_grid(Seen().rows);
+  scarp::SerialExecutor serial;
+  // Knots of a fault scene's drainage: six in a decade.
+  std::vector<std::pair<double, double>> decades{{1.0, 0.0}};
+  for (int step = 0; step <= 18; ++step) decades.emplace_back(2.0 + step, std::pow(10.0, (step - 18) / 6.0));
+  for (double const allowed : {infinite, 1e-2, 1e-3}) {
+    auto const bound = allowed < infinite ? std::optional(allowed) : std::nullopt;
+    auto problem = column(grid, water_in(grid, bound, decades), TimeFunction::ramp(0.0, 1.0)).problem(serial);
+    scarp::ErrorBudget budget(problem);
+    Seen seen{.from = 0.01 - 1e-9};
+    scarp::Observers observers(std::ref(budget), std::ref(seen));
+    REQUIRE(at_once.run(scarp::QuasiNewton<>(), problem, 0.0, 1.0, observers).verdict.acceptable());
+    auto stepping = by_error;
+    if (!bound) stepping.first = 1.0;
+    auto const run = stepping.run(scarp::QuasiNewton<>(), problem, 1.0, 20.0, observers);
+    REQUIRE(run.verdict.acceptable());
+    double residual = 0.0;
+    for (auto const& report : seen.reports)
+      if (report.verdict.acceptable()) residual = std::max(residual, report.parts.back().value);
+    auto const parts = budget.parts();
+    auto const part = [&](char const* name) { return *std::ranges::find(parts, name, &scarp::BudgetPart::name); };
+    MESSAGE("allowed ", allowed, ": ", run.steps, " steps, budget ", part("time").value, ", error ", seen.error);
+    CHECK(part("water").value == residual);
+    CHECK(part("water").is_within());
+    if (bound) CHECK(part("time").value <= allowed * (1.0 + 1e-12));
+    CHECK(part("time").is_within());
+    CHECK(seen.error < (bound ? 0.03 : 0.06));
   }
 }
 

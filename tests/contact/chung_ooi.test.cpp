@@ -203,7 +203,7 @@ TEST_CASE("two equal spheres meet as in Chung and Ooi's test 1") {
   // Analytic: Hertz's formulas with R = 10 mm and a relative speed of 20 m/s, for glass and for limestone.
   for (Case const& c : {Case{48e9, 0.2, 2800.0, 274.11e-6, 10.697e3, 40.34e-6},
                         Case{20e9, 0.25, 2500.0, 368.30e-6, 7.108e3, 54.20e-6}}) {
-    auto const contact_law = HertzMindlin<>::of(c.modulus, c.poisson, 0.35);
+    auto const contact_law = HertzMindlin<>::of({.modulus = c.modulus, .poisson = c.poisson}, 0.35);
     Impact const impact{sphere_mass(c.density, 0.01) / 2.0, 0.005, 20.0, contact_law.reduced_modulus};
     // The numbers above are rounded in their last digit.
     CHECK(relative_error(impact.largest_overlap(), c.overlap) < 1e-4);
@@ -225,7 +225,8 @@ TEST_CASE("a sphere meets a rigid wall as in Chung and Ooi's test 2") {
   // Analytic: Hertz's formulas with R = 100 mm and 0.2 m/s, for an aluminium and a magnesium alloy.
   for (Case const& c : {Case{70e9, 0.3, 2699.0, 49.717e-6, 11.370e3, 731.7e-6},
                         Case{40e9, 0.35, 1800.0, 52.123e-6, 7.233e3, 767.1e-6}}) {
-    auto const contact_law = HertzMindlin<>::between(c.modulus, c.poisson, rigid, c.poisson, 0.35);
+    auto const contact_law = HertzMindlin<>::between({.modulus = c.modulus, .poisson = c.poisson},
+                                                     {.modulus = rigid, .poisson = c.poisson}, 0.35);
     Impact const impact{sphere_mass(c.density, 0.1), 0.1, 0.2, contact_law.reduced_modulus};
     // The numbers above are rounded in their last digit.
     CHECK(relative_error(impact.largest_overlap(), c.overlap) < 2e-5);
@@ -247,7 +248,7 @@ TEST_CASE("spheres rebound with the restitution that was requested, at any speed
   for (Material const& m : {Material{380e9, 0.23, 4000.0}, Material{100e9, 0.25, 7000.0}}) {  // alumina, cast iron
     for (double const restitution : {0.05, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.98, 1.0}) {
       for (double const speed : {0.039, 3.9}) {  // theirs is 3.9 m/s with R = 2.5 mm
-        auto const contact_law = HertzMindlin<HertzRestitution>::of(m.modulus, m.poisson, 0.092,
+        auto const contact_law = HertzMindlin<HertzRestitution>::of({.modulus = m.modulus, .poisson = m.poisson}, 0.092,
                                                                     HertzRestitution{.restitution = restitution});
         Impact const impact{sphere_mass(m.density, 0.0025), 0.0025, speed, contact_law.reduced_modulus};
         Rebound const rebound = bounce(contact_law, impact, 0.0, 400);
@@ -264,8 +265,8 @@ TEST_CASE("spheres rebound with the restitution that was requested, at any speed
 
 TEST_CASE("an oblique impact slides through as in Chung and Ooi's test 4") {
   double const friction = 0.092, restitution = 0.98, radius = 0.0025, speed = 3.9;
-  auto const contact_law =
-      HertzMindlin<HertzRestitution>::of(380e9, 0.23, friction, HertzRestitution{.restitution = restitution});
+  auto const contact_law = HertzMindlin<HertzRestitution>::of({.modulus = 380e9, .poisson = 0.23}, friction,
+                                                              HertzRestitution{.restitution = restitution});
   struct Case {
     double degrees, kept_share, spin;
   };
@@ -289,8 +290,9 @@ namespace {
 /// A steel sphere of 10 mm that meets a rigid wall at 5 m/s along the normal.
 struct OnSteelWall {
   static constexpr double friction = 0.3, restitution = 0.8, radius = 0.01, normal_speed = 5.0;
-  HertzMindlin<HertzRestitution> contact_law = HertzMindlin<HertzRestitution>::between(
-      208e9, 0.3, rigid, 0.3, friction, HertzRestitution{.restitution = restitution});
+  HertzMindlin<HertzRestitution> contact_law =
+      HertzMindlin<HertzRestitution>::between({.modulus = 208e9, .poisson = 0.3}, {.modulus = rigid, .poisson = 0.3},
+                                              friction, HertzRestitution{.restitution = restitution});
   Impact impact{sphere_mass(7850.0, radius), radius, normal_speed, contact_law.reduced_modulus};
 
   /// Tangential speed of the centre that a wall on which the sphere slides throughout takes.
@@ -349,8 +351,8 @@ TEST_CASE("tests 5 and 6 are one: only the speed of the surface past the wall co
 TEST_CASE("two equal spheres with equal spins part as in Chung and Ooi's test 7") {
   double const friction = 0.3, speed = 0.2;
   for (double const restitution : {1.0, 0.8}) {
-    auto const contact_law =
-        HertzMindlin<HertzRestitution>::of(70e9, 0.3, friction, HertzRestitution{.restitution = restitution});
+    auto const contact_law = HertzMindlin<HertzRestitution>::of({.modulus = 70e9, .poisson = 0.3}, friction,
+                                                                HertzRestitution{.restitution = restitution});
     for (double const spin :
          {2.0, 24.0}) {  // sticks, slides; on both spheres, so that the surfaces meet in opposite senses
       Collision const collision{.radius = {0.1, 0.1},
@@ -384,8 +386,8 @@ TEST_CASE("two equal spheres with equal spins part as in Chung and Ooi's test 7"
 
 TEST_CASE("two different spheres with spins part as in Chung and Ooi's test 8") {
   double const friction = 0.3, speed = 0.2, restitution = 0.8;
-  auto const contact_law =
-      HertzMindlin<HertzRestitution>::of(70e9, 0.3, friction, HertzRestitution{.restitution = restitution});
+  auto const contact_law = HertzMindlin<HertzRestitution>::of({.modulus = 70e9, .poisson = 0.3}, friction,
+                                                              HertzRestitution{.restitution = restitution});
   for (double const spin : {2.0, -24.0, 24.0}) {
     Collision const collision{.radius = {0.1, 0.05},
                               .closing = {speed, 0.0, 0.0},
@@ -420,8 +422,8 @@ TEST_CASE("a glancing collision in space keeps momentum and angular momentum to 
                                 .spin = {Vector<3>{3.0, -5.0, 2.0}, Vector<3>{-1.0, 4.0, 8.0}},
                                 .line = Vector<3>{2.0, -1.0, 2.0} / 3.0,
                                 .drift = {0.05, 0.1, -0.07}};
-      auto const contact_law =
-          HertzMindlin<HertzRestitution>::of(70e9, 0.3, friction, HertzRestitution{.restitution = restitution});
+      auto const contact_law = HertzMindlin<HertzRestitution>::of({.modulus = 70e9, .poisson = 0.3}, friction,
+                                                                  HertzRestitution{.restitution = restitution});
       Course const course = collide(collision, contact_law);
       REQUIRE(course.touching > 300);
       CHECK(course.lost_momentum < 1e-12);  // exact, as in test 7
@@ -457,7 +459,7 @@ double gained_energy(Rebound const& rebound, double speed) {
 TEST_CASE("an elastic oblique impact gains no energy, and what it loses is what the law says, stuck or sliding") {
   double const radius = 0.0025, speed = 3.9;
   for (double const friction : {0.092, 1e6}) {  // test 4, and without sliding
-    auto const contact_law = HertzMindlin<>::of(380e9, 0.23, friction);
+    auto const contact_law = HertzMindlin<>::of({.modulus = 380e9, .poisson = 0.23}, friction);
     for (double const degrees : {5.0, 45.0, 80.0, 85.0}) {
       double const angle = degrees * std::numbers::pi / 180.0;
       Impact const impact{sphere_mass(4000.0, radius), radius, speed * std::cos(angle), contact_law.reduced_modulus};

@@ -115,7 +115,8 @@ TEST_CASE("a ball that is thrown slides at mu g and rolls on with five sevenths 
 
 TEST_CASE("a ball on a damped contact comes to roll without slip, whether thrown or spun") {
   constexpr double friction = 0.3, time_step = 1e-5;
-  auto const law = HertzMindlin<HertzRestitution>::between(1e7, 0.3, 1e40, 0.3, friction, {.restitution = 0.5});
+  auto const law = HertzMindlin<HertzRestitution>::between(
+      {.modulus = 1e7, .poisson = 0.3}, {.modulus = 1e40, .poisson = 0.3}, friction, {.restitution = 0.5});
   for (bool const thrown : {true, false}) {
     Ball ball;
     (thrown ? ball.speed : ball.spin) = thrown ? 2.0 : 20.0;

@@ -31,12 +31,12 @@ using scarp::RollingResistance;
 /// A law with forces of some 10 N at an overlap of 0.1 m and a reduced radius of 1 m.
 template <class Law>
 struct Sample {
-  static Law law() { return HertzMindlin<>::of(500.0, 0.2, 0.5); }
+  static Law law() { return HertzMindlin<>::of({.modulus = 500.0, .poisson = 0.2}, 0.5); }
 };
 template <>
 struct Sample<HertzMindlin<HertzRestitution>> {
   static HertzMindlin<HertzRestitution> law() {
-    return HertzMindlin<HertzRestitution>::of(500.0, 0.2, 0.5, {.restitution = 0.6});
+    return HertzMindlin<HertzRestitution>::of({.modulus = 500.0, .poisson = 0.2}, 0.5, {.restitution = 0.6});
   }
 };
 template <>

@@ -63,16 +63,18 @@ TEST_CASE("unloading takes shear force in proportion to the contact radius, load
 
 TEST_CASE("materials are reduced as Hertz and Mindlin have it") {
   // Analytic: E / 2(1 - nu^2) = 25 GPa and E / 4(1 + nu)(2 - nu) = 48 / 8.64 GPa; round-off.
-  auto const glass = HertzMindlin<>::of(48e9, 0.2, 0.35);
+  auto const glass = HertzMindlin<>::of({.modulus = 48e9, .poisson = 0.2}, 0.35);
   CHECK(glass.reduced_modulus == samples::Approx(25e9).epsilon(1e-15));
   CHECK(glass.reduced_shear_modulus == samples::Approx(48e9 / 8.64).epsilon(1e-15));
   CHECK(glass.friction == 0.35);
   // Analytic: against a rigid body only one compliance is left.
-  auto const on_rigid = HertzMindlin<>::between(48e9, 0.2, 1e40, 0.2, 0.35);
+  auto const on_rigid =
+      HertzMindlin<>::between({.modulus = 48e9, .poisson = 0.2}, {.modulus = 1e40, .poisson = 0.2}, 0.35);
   CHECK(on_rigid.reduced_modulus == samples::Approx(50e9).epsilon(1e-15));
   CHECK(on_rigid.reduced_shear_modulus == samples::Approx(48e9 / 4.32).epsilon(1e-15));
-  CHECK_REFUSED(HertzMindlin<>::of(48e9, 0.7, 0.35), "Poisson's ratio of a grain is 0.7");
-  CHECK_REFUSED(HertzMindlin<>::between(1e7, 0.3, -1e9, 0.3, 0.5), "Young's modulus of a grain is -1");
+  CHECK_REFUSED(HertzMindlin<>::of({.modulus = 48e9, .poisson = 0.7}, 0.35), "Poisson's ratio of a grain is 0.7");
+  CHECK_REFUSED(HertzMindlin<>::between({.modulus = 1e7, .poisson = 0.3}, {.modulus = -1e9, .poisson = 0.3}, 0.5),
+                "Young's modulus of a grain is -1");
 }
 
 TEST_CASE("a restitution that was changed without its damping ratio is refused") {

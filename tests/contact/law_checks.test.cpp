@@ -167,12 +167,12 @@ TEST_CASE("parameters of laws that mean no contact are refused by name") {
   rough.friction = nan;
   refused(rough, "friction of the contact law is nan");
   refused(HertzMindlin<>{.reduced_modulus = -1e9}, "reduced modulus of the contact law is -");
-  refused(HertzMindlin<>::of(1e9, 0.2, -0.5), "friction of the contact law is -0.5");
-  refused(HertzMindlin<HertzRestitution>::of(1e9, 0.2, 0.5, {.restitution = 0.0}),
+  refused(HertzMindlin<>::of({.modulus = 1e9, .poisson = 0.2}, -0.5), "friction of the contact law is -0.5");
+  refused(HertzMindlin<HertzRestitution>::of({.modulus = 1e9, .poisson = 0.2}, 0.5, {.restitution = 0.0}),
           "restitution of the contact law is 0");
-  refused(HertzMindlin<HertzRestitution>::of(1e9, 0.2, 0.5, {.restitution = 1.5}),
+  refused(HertzMindlin<HertzRestitution>::of({.modulus = 1e9, .poisson = 0.2}, 0.5, {.restitution = 1.5}),
           "restitution of the contact law is 1.5");
-  refused(HertzMindlin<HertzRestitution>::of(1e9, 0.2, 0.5, {.restitution = nan}),
+  refused(HertzMindlin<HertzRestitution>::of({.modulus = 1e9, .poisson = 0.2}, 0.5, {.restitution = nan}),
           "restitution of the contact law is nan");
   refused(scarp::RollingResistance<scarp::LinearFrictional>{linear, -1.0, 0.1}, "rolling stiffness");
   refused(scarp::RollingResistance<scarp::LinearFrictional>{linear, 1.0, nan}, "rolling friction");

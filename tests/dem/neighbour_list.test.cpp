@@ -129,7 +129,7 @@ TEST_CASE_TEMPLATE(
   auto const listed = list_for(grains, law);
   REQUIRE(listed.first.size() > 80);
   CHECK(list_for(grains, scarp::Frictionless{.normal_stiffness = 6e6}) == listed);
-  CHECK(list_for(grains, scarp::HertzMindlin<>::of(1e9, 0.3, 0.5)) == listed);
+  CHECK(list_for(grains, scarp::HertzMindlin<>::of({.modulus = 1e9, .poisson = 0.3}, 0.5)) == listed);
 
   using Bond = scarp::CohesiveBond<scarp::LinearFrictional>;
   CHECK(list_for(grains, Bond{.law = law}) == listed);

@@ -42,7 +42,7 @@ TEST_CASE_TEMPLATE("dashpots, which resist the cell's strain too, do not keep th
   using Law = scarp::HertzMindlin<scarp::HertzRestitution>;
   using Grains = scarp::Packing<Shape, Law>;
   for (double const restitution : {0.9, 0.5}) {
-    Law const law = Law::of(7e9, 0.2, 0.55, {.restitution = restitution});
+    Law const law = Law::of({.modulus = 7e9, .poisson = 0.2}, 0.55, {.restitution = restitution});
     scarp::IsotropicPreparation preparation{.pressure = samples::pressure};
     preparation.consolidation.max_steps = preparation.relaxation.max_steps = 40'000;
     auto const prepared = preparation.prepare(samples::loose_cloud<Grains>(60, 3), law);

@@ -116,7 +116,8 @@ TEST_CASE("the critical step follows every number of a law that it depends on, a
   using Hertz = scarp::HertzMindlin<scarp::HertzRestitution>;
   CHECK(is_renewed(samples::study_law(), stiffer(0.5)));
   CHECK(is_renewed(Hardening{1e6, 0.0}, Hardening{1e6, 1e4}));
-  CHECK(is_renewed(Hertz::of(1e9, 0.3, 0.5, {.restitution = 0.9}), Hertz::of(1e9, 0.3, 0.5, {.restitution = 0.2})));
+  CHECK(is_renewed(Hertz::of({.modulus = 1e9, .poisson = 0.3}, 0.5, {.restitution = 0.9}),
+                   Hertz::of({.modulus = 1e9, .poisson = 0.3}, 0.5, {.restitution = 0.2})));
   // Preparations exchange the friction: nothing depends on it.
   auto smooth = samples::study_law();
   smooth.friction = 0.1;

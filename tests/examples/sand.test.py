@@ -55,7 +55,7 @@ def check_file(folder):
 
 
 def check_refusals(folder):
-    for text, said in (("shape = ellipse\nviod-ratio = 0.2\n", "line 2: a sand has no 'viod-ratio'"),
+    for text, said in (("shape = ellipse\nconductivity-void-ratio = 0.6\n", "not used (without a conductivity)"), ("shape = ellipse\nviod-ratio = 0.2\n", "line 2: a sand has no 'viod-ratio'"),
                        ("friction = rough\n", "line 1: 'friction' is 'rough'"),
                        ("density\n", "line 1 is 'density'"),
                        ("friction = 0.4\nfriction = 0.5\n", "line 2 gives 'friction' again"),

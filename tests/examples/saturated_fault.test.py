@@ -54,6 +54,12 @@ expect(thrown["excess_pressure_min"] > -100e3 - 9.81e3 * 25.0 - 3e3, f"suction t
 expect(abs(later["excess_pressure_min"]) < abs(thrown["excess_pressure_min"]), "nothing has drained in a minute")
 expect(abs(end["excess_pressure_min"]) < 1.0 and end["vapour"] == 0.0, f"not drained: {end}")
 expect(abs(-end["expelled"] / told("fast")["dilated_area"] - 1.0) < 1e-2, f"water {end['expelled']}, ground {told('fast')['dilated_area']}")
+parts = told("fast")["error_budget"]["parts"]
+expect(all(0.0 < parts[name]["value"] and parts[name]["within"] for name in ("water", "time")), f"budget of the water: {parts}")
+expect(not {"water", "time"} & told("dry")["error_budget"]["parts"].keys(), "dry ground has a budget of water")
+run(WET, "bounded", *SOIL, "--water-table", 0, "--slip-rate", 1, "--drain", 1e6, "--largest-time-error", 4e3)
+time, pressure = (told("bounded")["error_budget"]["parts"]["time"]["value"], told("bounded")["water"]["after_the_throw"]["excess_pressure_min"])
+expect(time <= 4e3 / abs(pressure) and time < 0.5 * parts["time"]["value"], f"steps of a bounded error in time: {time}, else {parts['time']['value']}")
 expect(told("fast")["throw_over_depth"] == told("dry")["throw_over_depth"], "the throw is another")
 with open(pathlib.Path(scratch.name, "fast", "water.csv"), encoding="utf-8") as file:
     times = [float(row["time"]) for row in csv.DictReader(file)]
@@ -82,6 +88,11 @@ expect(abs(sliding["after_the_throw"]["settlement"] - sliding["at_the_end"]["set
 expect(abs(sliding["at_the_end"]["excess_pressure_min"]) < 1.0, f"not drained: {sliding['at_the_end']}")
 run(WET, "packings", "--quick", "--grains", 49, "--water-table", 4, "--throw-over-depth", 0.004, "--drain", 1e4)
 expect(told("packings")["water"]["after_the_throw"]["excess_pressure_min"] < -1e3, "packings have no suction")
+at_half = 1e-4 * (0.5**3 / 1.5) / (0.7**3 / 1.7)  # Kozeny and Carman: the conductivity that is 1e-4 m/s at a void ratio of 0.7
+pathlib.Path(scratch.name, "wet.sand").write_text(f"shape = ellipse\nconductivity = {at_half}\nconductivity-void-ratio = 0.5\n")
+run(WET, "sand", "--quick", "--grains", 49, "--water-table", 4, "--throw-over-depth", 0.004, "--drain", 1e4, "--sand", "wet.sand")
+found = [told(name)["water"]["after_the_throw"]["excess_pressure_min"] for name in ("packings", "sand")]
+expect(abs(found[1] / found[0] - 1.0) < 1e-3, f"suction with the conductivity of an option and of a sand: {found}")
 
 done = subprocess.run([sys.executable, str(PLOT), str(pathlib.Path(scratch.name, "footing"))], capture_output=True, text=True,
                       env={**os.environ, "MPLBACKEND": "Agg"})
@@ -90,7 +101,7 @@ for name in ("excess_pressure.png", "pressures.gif", "water.png"):
     expect(pathlib.Path(scratch.name, "footing", "figures", name).stat().st_size > 10_000, f"no figure {name}")
 
 for program, options, said in ((DRY, [*SOIL, "--water-table", 0], "which builds one with water"), (WET, SOIL, "is not given to a program with water"), (WET, [*SOIL, "--water-table", 2e3], "out of range"), (WET, [*SOIL, "--water-table", 30], "all of it dry"),
-                               (WET, [*SOIL, "--drain", 5], "requires --water-table"),
+                               (WET, [*SOIL, "--drain", 5], "requires --water-table"), (WET, [*SOIL, "--largest-time-error", 5], "requires --water-table"),
                                (WET, [*SOIL, "--water-table", 0, "--unit-weight", 3000], "would float")):
     error = run(program, "refused", "--overwrite", *options, code=2)
     expect(said in error, f"{options}: {error}")

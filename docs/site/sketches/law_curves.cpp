@@ -37,7 +37,7 @@ void trace(char const* law_name, char const* path, Law const& law, bool bonded, 
 
 int main() {
   scarp::LinearFrictional const linear{.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = 0.55};
-  auto const hertz = scarp::HertzMindlin<>::of(70e9, 0.25, 0.55);
+  auto const hertz = scarp::HertzMindlin<>::of({.modulus = 70e9, .poisson = 0.25}, 0.55);
   scarp::CohesiveBond const bond{linear, 20.0, 30.0};
   fmt::print("law,path,overlap,slip,normal_force,shear_force\n");
   double const deepest = 1e-5;

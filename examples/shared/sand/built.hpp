@@ -41,7 +41,7 @@ inline constexpr char const* name_in_sand<RollingHertz> = "rolling-hertz";
 template <class Law>
 Law law_of(Sand const& sand) {
   if constexpr (std::is_same_v<Law, scarp::HertzMindlin<>>) {
-    return Law::of(sand.modulus, sand.poisson, sand.friction);
+    return Law::of({.modulus = sand.modulus, .poisson = sand.poisson}, sand.friction);
   } else if constexpr (std::is_same_v<Law, Rolling> || std::is_same_v<Law, RollingHertz>) {
     return {.law = law_of<decltype(Law::law)>(sand),
             .rolling_stiffness = sand.rolling_stiffness,

@@ -32,7 +32,7 @@ inline void declare_sand(CLI::App& app, Sand& sand) {
   bool material = true;
   for_each_option(sand, [&](std::string const& name, auto& member, Range range, char const* what) {
     using Member = std::remove_reference_t<decltype(member)>;
-    if (name == "calibrated-on" || name == "misfit") return;
+    if (is_of_file(name)) return;
     if (name == "smallest") material = false;
     auto const names = name == "void-ratio" ? "--void-ratio,--target-void-ratio" : "--" + name;
     auto* const option = app.add_option(names, member, what)->group(material ? "Material" : "Preparation");

@@ -47,6 +47,8 @@ struct Sand {
   double vertical_pressure = 0.0;
   double overconsolidation_ratio = 1.0;
   double k0 = 0.0;
+  double conductivity = 0.0;
+  double conductivity_void_ratio = 0.7;
   std::string calibrated_on{};
   std::string misfit{};
 
@@ -98,6 +100,9 @@ void for_each_option(AnySand& sand, Visit&& visit) {
         "of the vertical pressure: largest over present");
   visit("k0", sand.k0, Range{.most = 10.0},
         "horizontal over vertical stress to which it is brought at last; 0: as it is");
+  visit("conductivity", sand.conductivity, Range{.most = 10.0}, "hydraulic, of saturated ground [m/s]");
+  visit("conductivity-void-ratio", sand.conductivity_void_ratio, Range{.least = 0.01, .most = 10.0},
+        "of the ground that has this conductivity");
   visit("calibrated-on", sand.calibrated_on, Range{}, "data that the values come from");
   visit("misfit", sand.misfit, Range{}, "of these data");
 }
@@ -115,6 +120,11 @@ inline bool sets_density(std::string_view name) {
   return name == "preparation-friction" || name == "void-ratio" || name == "relative-density";
 }
 
+/// What stands in a file of a sand and is no option of a program that prepares packings.
+inline bool is_of_file(std::string_view name) {
+  return name.starts_with("conductivity") || name == "calibrated-on" || name == "misfit";
+}
+
 /// Why a sand has no use for an option; empty where it has.
 inline std::string why_unused(Sand const& sand, std::string_view name) {
   auto const law_is = fmt::format("the law is '{}'", sand.law);
@@ -130,6 +140,7 @@ inline std::string why_unused(Sand const& sand, std::string_view name) {
   if (name == "void-ratio-tolerance" && sand.void_ratio == 0.0 && sand.relative_density == 0.0)
     return "without a void ratio";
   if (name == "overconsolidation-ratio" && sand.vertical_pressure == 0.0 && sand.k0 > 0.0) return "k0 is given";
+  if (name.starts_with("conductivity") && sand.conductivity == 0.0) return "without a conductivity";
   return {};
 }
 

@@ -44,7 +44,8 @@ struct Choice {
   double void_ratio = 0.7;            ///< of the ground that water fills, before the rupture
   double slip_rate = 1.0;             ///< of the fault [m/s]
   double drain = 0.0;                 ///< time after the rupture in which water drains [s]
-  double size = 2.5;                  ///< [m], cell width in the band, or size of the elements in the strip
+  std::optional<double> largest_time_error;  ///< of pore pressures in one step [Pa]
+  double size = 2.5;                         ///< [m], cell width in the band, or size of the elements in the strip
   double strip_width = 0.0;  ///< [m], twice the margin around `strained` with small elements; 0 for a uniform mesh
   int elements = 0;          ///< wanted number of elements instead of `size`; 0 for none
   std::optional<MeshPattern> pattern;  ///< crossed, or quads where elements are quadrilaterals
@@ -158,6 +159,7 @@ struct Choice {
       visit("void-ratio", self.void_ratio);
       visit("slip-rate", self.slip_rate);
       visit("drain", self.drain);
+      visit("largest-time-error", self.largest_time_error);
     }
     double strained = 0.0;  // stands for all of the places: another pilot run has another mesh
     for (auto const& place : self.strained) strained += place.x() + 2.0 * place.y();

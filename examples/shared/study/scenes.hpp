@@ -39,6 +39,7 @@ void set(scarp::Saturated<Structure>& structure, Choice const& choice) {
   set(static_cast<Structure&>(structure), choice);
   structure.void_ratio = choice.void_ratio;
   structure.water_table = *choice.water_table;
+  structure.largest_time_error = choice.largest_time_error;
   structure.flow = scarp::KozenyCarman::of_conductivity(choice.conductivity, choice.void_ratio);
 }
 #endif

@@ -86,6 +86,7 @@ std::string material_of(Choice const& choice) {
   sand.grains = study.grains;
   sand.seed = study.seed;
   sand.overconsolidation_ratio = study.overconsolidation_ratio;
+  sand.conductivity = study.sand.conductivity;
   sand.calibrated_on = sand.misfit = {};
   return examples::text_of(sand);
 }

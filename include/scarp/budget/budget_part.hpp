@@ -52,14 +52,19 @@ inline std::string budget_table(BudgetParts const& parts) {
 
 /// Part of an error budget that a single run cannot estimate: how far its result is from that of a sensitivity run, the
 /// same scene with one choice made otherwise - a mesh of other directions, smaller load steps.
-/// own, other: the same measure of both runs; size: what an error is relative to, in the measure's unit
-/// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
-inline BudgetPart sensitivity_part(std::string name, double own, double other, double size, double bound,
-                                   std::string meaning) {
-  require_positive("size that a sensitivity run's difference is relative to", size);
-  require_at_least("bound of a sensitivity run's difference", bound, 0.0);
-  return {std::move(name), std::abs(other - own) / size, bound, std::move(meaning)};
-}
+struct Sensitivity {
+  double own = 0.0;    ///< measure of the run
+  double other = 0.0;  ///< the same of the sensitivity run
+  double size = 0.0;   ///< what an error is relative to, in the measure's unit
+  double bound = 0.0;  ///< of the difference over the size
+
+  /// \throws InputError for a size that is not finite and positive, and for a bound that is negative or NaN
+  BudgetPart part(std::string name, std::string meaning) const {
+    require_positive("size that a sensitivity run's difference is relative to", size);
+    require_at_least("bound of a sensitivity run's difference", bound, 0.0);
+    return {std::move(name), std::abs(other - own) / size, bound, std::move(meaning)};
+  }
+};
 
 /// Bounds beyond which a run reports that it is outside its error budget. All are relative; docs/error-budget.md gives
 /// the reasons.
@@ -83,6 +88,8 @@ struct ErrorBounds {
   double mesh = 4e-2;              ///< against a sensitivity run on another mesh
   double load_step = 2e-2;         ///< against a sensitivity run with smaller load steps
   double volume = 1e-2;            ///< that the ground has gained and its packings have not, as a displacement
+  double water = 1e-2;             ///< largest residual of a field of an accepted step, such as pore water's volumes
+  double time = 0.3;               ///< largest estimated error of a field in one time step, over its largest value
 
   /// Infinite: no bound. \throws InputError for a bound that is negative or NaN
   void validate() const {
@@ -93,7 +100,7 @@ struct ErrorBounds {
 
   SCARP_MEMBERS(residual, work_gap, linear_residual, iterated_linear_residual, condition, unbalanced_mean,
                 unbalanced_largest, kinetic_share, inertial_number, held_stress, doubling_median, doubling_95,
-                doubling_strained, accumulated, mesh, load_step, volume)
+                doubling_strained, accumulated, mesh, load_step, volume, water, time)
 };
 
 /// Points and shares that an error budget samples.

@@ -52,6 +52,7 @@ class ErrorBudget : public NeverStops {
       : bounds_(bounds),
         sampling_(sampling),
         iterates_equations_(problem.points().means() != nullptr),
+        has_field_(has_grid && problem.has_field()),
         adds_up_work_(has_grid && !problem.has_attachment() && !problem.has_field() &&
                       problem.executor().ranks() == 1) {
     bounds.validate();
@@ -77,7 +78,11 @@ class ErrorBudget : public NeverStops {
     if (work_ == 0) answers_ += static_cast<long>(report.history.size()) * problem.points().size();
     condition_ = nan_max(condition_, report.condition);
     if (!report.verdict.acceptable()) return;
-    residual_ = nan_max(residual_, report.residual());
+    if (has_field_) {
+      look_at_field(problem, report);
+    } else {
+      residual_ = nan_max(residual_, report.residual());
+    }
     if (adds_up_work_) balance_.attempted(problem, report);
     packings_.look(problem, seen_);
     tracked_.follow(problem, at_rest_);
@@ -94,6 +99,11 @@ class ErrorBudget : public NeverStops {
     };
     add("residual", residual_, bounds_.residual,
         "largest force residual of an accepted step, over the forces that act");
+    if (has_field_) {
+      add("water", field_residual_, bounds_.water, "largest residual of the field, over what flows and strains");
+      add("time", field_size_ > 0.0 ? time_error_ / field_size_ : 0.0, bounds_.time,
+          "largest estimated error of the field in one time step, over its largest value");
+    }
     if (adds_up_work_) add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
     add("linear_residual", linear_residual_,
         iterates_equations_ ? bounds_.iterated_linear_residual : bounds_.linear_residual, "largest of a linear system");
@@ -128,16 +138,22 @@ class ErrorBudget : public NeverStops {
   DoubledSamples const& samples() const { return samples_; }  ///< repetitions of single increments so far
   TrackedPoints const& tracked() const { return tracked_; }   ///< repetitions of whole paths so far
 
-  /// What evolves; the work only where it is added up.
+  /// What evolves; the work only where it is added up, and of a field where there is one.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
-    SCARP_ALL_MEMBERS(bounds_, sampling_, iterates_equations_, adds_up_work_, seen_, at_rest_, balance_, packings_,
-                      samples_, tracked_, residual_, linear_residual_, condition_, work_, answers_);
+    SCARP_ALL_MEMBERS(bounds_, sampling_, iterates_equations_, has_field_, adds_up_work_, seen_, at_rest_, balance_,
+                      packings_, samples_, tracked_, residual_, field_residual_, time_error_, field_size_,
+                      linear_residual_, condition_, work_, answers_);
     if (self.adds_up_work_) visit("balance", self.balance_);
     visit("packings", self.packings_);
     visit("samples", self.samples_);
     visit("tracked", self.tracked_);
     visit("residual", self.residual_);
+    if (self.has_field_) {
+      visit("field_residual", self.field_residual_);
+      visit("time_error", self.time_error_);
+      visit("field_size", self.field_size_);
+    }
     visit("linear_residual", self.linear_residual_);
     visit("condition", self.condition_);
     visit("work", self.work_);
@@ -146,6 +162,18 @@ class ErrorBudget : public NeverStops {
 
  private:
   static constexpr bool has_grid = requires(Problem const& problem) { problem.grid(); };
+
+  /// The field is the last of the parts.
+  void look_at_field(Problem const& problem, StepReport const& report) {
+    if constexpr (has_grid) {
+      for (std::size_t part = 0; part + 1 < report.parts.size(); ++part)
+        residual_ = nan_max(residual_, report.parts[part].value);
+      field_residual_ = nan_max(field_residual_, report.parts.back().value);
+      auto const error = problem.field()->time_error();
+      time_error_ = nan_max(time_error_, error.estimate);
+      field_size_ = nan_max(field_size_, error.size);
+    }
+  }
 
   long all_work() const { return work_ > 0 ? work_ : answers_; }
 
@@ -156,7 +184,8 @@ class ErrorBudget : public NeverStops {
 
   ErrorBounds bounds_;
   ErrorSampling sampling_;
-  bool iterates_equations_;      ///< where points see means: linear systems are not factorised
+  bool iterates_equations_;  ///< where points see means: linear systems are not factorised
+  bool has_field_;
   bool adds_up_work_;            ///< not of what is attached, nor of points of other processes
   std::vector<int> seen_;        ///< points of this process
   std::vector<double> at_rest_;  ///< [Pa], size of each point's stress when the run began
@@ -164,7 +193,10 @@ class ErrorBudget : public NeverStops {
   PackingSurvey packings_;
   DoubledSamples samples_;
   TrackedPoints tracked_;
-  double residual_ = 0.0;
+  double residual_ = 0.0;  ///< of all but a field
+  double field_residual_ = 0.0;
+  double time_error_ = 0.0;  ///< largest of a step, in the unit of the field
+  double field_size_ = 0.0;  ///< largest value of the field in any step
   double linear_residual_ = 0.0;
   double condition_ = 0.0;
   long work_ = 0;     ///< of all attempts

@@ -25,14 +25,23 @@ struct NodalField {
   std::vector<double> values;  ///< shape (nodes)
 };
 
+/// Estimated error in time of one step of a field, in the field's unit.
+struct FieldTimeError {
+  double estimate = 0.0;            ///< largest of all values
+  std::optional<double> allowed{};  ///< without it none is too large
+  double size = 0.0;                ///< largest value of the committed field
+
+  double over_allowed() const { return allowed ? estimate / *allowed : 0.0; }  ///< at most 1 where a step is accepted
+};
+
 /// An `Attachment` whose degrees of freedom are a field over the mesh, such as the pressure of pore water, and no body:
 /// they are solved together with the displacements, and what is known of them belongs to the field itself. They are the
 /// last ones of the problem. is_field: true; at(load): from now on forces belong to a step that ends at this load
 /// factor; next_knot(load): first load factor beyond one where the field's own courses may turn; name(): of its
 /// residual; residual(unbalanced): imbalance of its own equations, relative to its own measure, shape (extra_dofs);
 /// describe(number): a degree of freedom in words; nodal_fields() and ground_force(), what it does to the mesh [N],
-/// shape (dof_count of the mesh): committed; time_error(), where it has one: estimated error in time of the step whose
-/// forces were requested last, over what is allowed.
+/// shape (dof_count of the mesh): committed; time_error(), where it has one: `FieldTimeError` of the step whose forces were
+/// requested last.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -58,7 +67,7 @@ class AttachedField : public Attached<Dim> {
  public:
   virtual void at(double load) = 0;
   virtual double next_knot(double load) const = 0;
-  virtual double time_error() const = 0;  ///< 0 for what estimates none
+  virtual FieldTimeError time_error() const = 0;  ///< 0 for what estimates none
   virtual std::string name() const = 0;
   virtual double residual(Eigen::VectorXd const& unbalanced) const = 0;
   virtual std::string describe(int number) const = 0;
@@ -89,9 +98,9 @@ class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
 
   void at(double load) override { part_.at(load); }
   double next_knot(double load) const override { return part_.next_knot(load); }
-  double time_error() const override {
+  FieldTimeError time_error() const override {
     if constexpr (requires { part_.time_error(); }) return part_.time_error();
-    return 0.0;
+    return {};
   }
   std::string name() const override { return part_.name(); }
   double residual(Eigen::VectorXd const& unbalanced) const override { return part_.residual(unbalanced); }

@@ -113,7 +113,10 @@ class PoreWater {
   /// \throws InputError for a clock that goes back, time in impermeable ground, and inflow without an outlet
   void at(double load);
   double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
-  double time_error() const { return trial_.time_error; }  ///< of the last evaluated step, over `largest_time_error`
+  /// Of the last evaluated step [Pa].
+  FieldTimeError time_error() const {
+    return {trial_.time_error, settings_.largest_time_error, view(pressure_).cwiseAbs().maxCoeff()};
+  }
   std::string name() const { return "water"; }
   /// Volumes that are not balanced, over those displaced in the step by strain, flow, vapour and the changes of
   /// pressure over the shear modulus, or a thousandth of the most of any step before, Euclidean norms.
@@ -183,7 +186,6 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
       field_(std::move(grid)),
       flow_(field_, flow, settings.void_ratio),
       boundaries_(field_.count()),
-      time_error_(settings.largest_time_error),
       scale_(field_.over_mean_size(settings.shear_modulus)),
       pressure_(detail::index(field_.count()), 0.0),
       left_(pressure_.size(), 0.0) {

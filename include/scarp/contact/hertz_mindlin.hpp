@@ -99,6 +99,18 @@ struct HertzRestitution {
 static_assert(ContactDamping<NoContactDamping>);
 static_assert(ContactDamping<HertzRestitution>);
 
+/// What a grain is made of.
+struct ElasticGrain {
+  double modulus = 0.0;  ///< Young's [Pa]
+  double poisson = 0.0;  ///< Poisson's ratio
+
+  /// \throws InputError for a modulus or a ratio that no material has
+  void validate() const {
+    require_positive("Young's modulus of a grain", modulus);
+    require_between("Poisson's ratio of a grain", poisson, -1.0, 0.5);
+  }
+};
+
 /// Two elastic spheres: Hertz along the normal, Mindlin's stiffness without slip along the tangent, Coulomb's limit.
 /// \f$ F_n = \tfrac43 E^* a\,u,\; F_t \leftarrow F_t - 8 G^* a\,\Delta s,\; |F_t| \le \mu F_n,\; a = \sqrt{R^* u} \f$
 /// Where the contact radius a shrinks, F_t first shrinks in proportion. In this incremental form no closed path of
@@ -123,25 +135,24 @@ struct HertzMindlin {
     detail::validated(damping);
   }
 
-  /// Spheres of one material: Young's modulus [Pa], Poisson's ratio.
-  static HertzMindlin of(double modulus, double poisson, double friction, Damping damping = {}) {
-    return between(modulus, poisson, modulus, poisson, friction, damping);
+  /// Spheres of one material. \throws InputError for a modulus or a ratio that no material has
+  static HertzMindlin of(ElasticGrain const& grain, double friction, Damping damping = {}) {
+    return between(grain, grain, friction, damping);
   }
 
-  /// Spheres of two materials: Young's moduli [Pa], Poisson's ratios.
-  /// \throws InputError for a modulus or a ratio that no material has
-  static HertzMindlin between(double modulus_1, double poisson_1, double modulus_2, double poisson_2, double friction,
+  /// Spheres of two materials. \throws InputError for a modulus or a ratio that no material has
+  static HertzMindlin between(ElasticGrain const& first, ElasticGrain const& second, double friction,
                               Damping damping = {}) {
-    for (double const modulus : {modulus_1, modulus_2}) require_positive("Young's modulus of a grain", modulus);
-    for (double const poisson : {poisson_1, poisson_2})
-      require_between("Poisson's ratio of a grain", poisson, -1.0, 0.5);
-    auto const compliance = [](double modulus, double poisson) { return (1.0 - poisson * poisson) / modulus; };
-    auto const shear_compliance = [](double modulus, double poisson) {
-      return (2.0 - poisson) * 2.0 * (1.0 + poisson) / modulus;  // G = E / 2(1 + nu)
+    detail::validated(first);
+    detail::validated(second);
+    auto const compliance = [](ElasticGrain const& grain) {
+      return (1.0 - grain.poisson * grain.poisson) / grain.modulus;
     };
-    return {.reduced_modulus = 1.0 / (compliance(modulus_1, poisson_1) + compliance(modulus_2, poisson_2)),
-            .reduced_shear_modulus =
-                1.0 / (shear_compliance(modulus_1, poisson_1) + shear_compliance(modulus_2, poisson_2)),
+    auto const shear_compliance = [](ElasticGrain const& grain) {
+      return (2.0 - grain.poisson) * 2.0 * (1.0 + grain.poisson) / grain.modulus;  // G = E / 2(1 + nu)
+    };
+    return {.reduced_modulus = 1.0 / (compliance(first) + compliance(second)),
+            .reduced_shear_modulus = 1.0 / (shear_compliance(first) + shear_compliance(second)),
             .friction = friction,
             .damping = damping};
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -49,11 +50,12 @@ struct RuptureTimes {
 /// \tparam Structure a `StandsOnGround`
 template <class Structure, HydraulicProvider Flow = KozenyCarman>
 struct Saturated : Structure {
-  Flow flow{};                 ///< of the soil
-  double shear_modulus = 0.0;  ///< of the ground in size [Pa], see PoreWaterSettings
-  double void_ratio = 0.7;     ///< at the start
-  double water_table = 0.0;    ///< depth below the surface [m], negative for water that stands on it
-  RuptureTimes times{};        ///< of throw and drainage
+  Flow flow{};                                 ///< of the soil
+  double shear_modulus = 0.0;                  ///< of the ground in size [Pa], see PoreWaterSettings
+  double void_ratio = 0.7;                     ///< at the start
+  double water_table = 0.0;                    ///< depth below the surface [m], negative for water that stands on it
+  RuptureTimes times{};                        ///< of throw and drainage
+  std::optional<double> largest_time_error{};  ///< of the pressures in one step [Pa], see PoreWaterSettings
 
   /// Of the ground at the start. \throws InputError for a void ratio that is not positive
   Buoyancy buoyancy() const {
@@ -75,7 +77,8 @@ struct Saturated : Structure {
         {.shear_modulus = shear_modulus,
          .void_ratio = void_ratio,
          .clock = detail::validated(times).clock(this->start(), throw_to, before),
-         .at_rest = WaterAtRest{.level = surface - water_table, .unit_weight = pore_water().unit_weight}});
+         .at_rest = WaterAtRest{.level = surface - water_table, .unit_weight = pore_water().unit_weight},
+         .largest_time_error = largest_time_error});
     for (auto const& region : grid.regions())
       if (region != "soil") water.exclude(region);
     for (auto const* above : {"surface", "footing_base"})

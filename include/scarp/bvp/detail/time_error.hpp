@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "scarp/bvp/detail/corner_field.hpp"
@@ -19,28 +18,22 @@ class TimeError {
  public:
   using Values = Eigen::VectorXd;
 
-  explicit TimeError(std::optional<double> allowed) : allowed_(allowed) {}
-
-  /// Largest estimate of all values over the allowed error, by their change in a step of a duration [s]; 0 where
-  /// no time passes or no error is set.
+  /// Largest estimate of all values, by their change in a step of a duration [s]; 0 where no time passes.
   double of(Values const& change, double duration) const {
-    if (!applies(duration)) return 0.0;
+    if (!(duration > 0.0)) return 0.0;
     Values const bend = rate_.empty() ? change : change - duration * viewed(rate_);
-    return bend.lpNorm<Eigen::Infinity>() / (2.0 * *allowed_);
+    return bend.lpNorm<Eigen::Infinity>() / 2.0;
   }
 
   void commit(Values const& change, double duration) {
-    if (!applies(duration)) return;
+    if (!(duration > 0.0)) return;
     Values const rate = change / duration;
     rate_.assign(rate.begin(), rate.end());
   }
 
-  SCARP_MEMBERS_EXCEPT((allowed_), rate_)
+  SCARP_MEMBERS(rate_)
 
  private:
-  bool applies(double duration) const { return allowed_ && duration > 0.0; }
-
-  std::optional<double> allowed_;
   std::vector<double> rate_{};  ///< of the last step with time [1/s]; empty before
 };
 
