@@ -193,7 +193,8 @@ TEST_CASE("what is saved comes back: packings of several shapes and laws") {
   // Dashpots ask how long the last move took.
   using Damped = scarp::HertzMindlin<scarp::HertzRestitution>;
   using DampedDiscs = scarp::Packing<scarp::Disc, Damped>;
-  what_is_saved_comes_back(rve(Damped::of(1e8, 0.25, 0.5, {.restitution = 0.3}), lattice<DampedDiscs>()));
+  what_is_saved_comes_back(
+      rve(Damped::of({.modulus = 1e8, .poisson = 0.25}, 0.5, {.restitution = 0.3}), lattice<DampedDiscs>()));
   what_is_saved_comes_back(
       rve<Glued>({.law = {samples::study_law(), 10.0, 10.0}, .rolling_stiffness = 10.0, .rolling_friction = 0.1},
                  lattice<Glued>()));

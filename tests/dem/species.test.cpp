@@ -153,8 +153,9 @@ TEST_CASE("a law per species is as stiff, reaches as far and is damped as much a
   CHECK(bonds.interaction_range() == samples::Approx(60.0 / 6e6).epsilon(1e-15));
   using Damped = scarp::HertzMindlin<scarp::HertzRestitution>;
   LawPerSpecies<Damped, 2> damped;
-  damped.laws = {Damped::of(1e9, 0.3, 0.5, {.restitution = 0.9}), Damped::of(1e8, 0.3, 0.5, {.restitution = 0.2}),
-                 Damped::of(1e7, 0.3, 0.5, {.restitution = 0.5})};
+  damped.laws = {Damped::of({.modulus = 1e9, .poisson = 0.3}, 0.5, {.restitution = 0.9}),
+                 Damped::of({.modulus = 1e8, .poisson = 0.3}, 0.5, {.restitution = 0.2}),
+                 Damped::of({.modulus = 1e7, .poisson = 0.3}, 0.5, {.restitution = 0.5})};
   CHECK(damped.damping_ratio() == damped.between(1, 2).damping_ratio());
   CHECK(damped.stiffness(1e-5, 1e-3).normal == damped.between(1, 1).stiffness(1e-5, 1e-3).normal);
 }

@@ -239,7 +239,7 @@ TEST_CASE("a pair whose normal stops being that of the least overlap takes the o
 }
 
 TEST_CASE("grains with dashpots rebound with the restitution of their law") {
-  auto const dashpots = Damped::of(1e9, 0.3, 0.5, {.restitution = 0.6});
+  auto const dashpots = Damped::of({.modulus = 1e9, .poisson = 0.3}, 0.5, {.restitution = 0.6});
   auto packing = free_pair<DampedDiscs>(-1e-6);
   constexpr double speed = 0.1;
   packing.velocity(0, 0) = speed;
@@ -256,7 +256,7 @@ TEST_CASE("grains with dashpots rebound with the restitution of their law") {
 }
 
 TEST_CASE("the spring beside a dashpot takes each slip once") {
-  auto const dashpots = Damped::of(1e9, 0.3, 0.5, {.restitution = 0.6});
+  auto const dashpots = Damped::of({.modulus = 1e9, .poisson = 0.3}, 0.5, {.restitution = 0.6});
   auto packing = free_pair<DampedDiscs>(1e-6);
   constexpr double speed = 1e-5;  // slips of far less than the overlap: nothing slides
   packing.velocity(1, 1) = speed;
