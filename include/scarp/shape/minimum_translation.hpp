@@ -2,13 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
-#include <initializer_list>
 #include <limits>
 #include <numbers>
-#include <vector>
 
+#include "scarp/core/host_device.hpp"
 #include "scarp/shape/support_contact.hpp"
 #include "scarp/simd/vectors.hpp"
 
@@ -41,11 +41,11 @@ struct OverlapProbe {
   double slope;
   Point<2, double> corner;  ///< q
 
-  double size() const { return first.value + second.value; }
-  bool is_finite() const { return std::isfinite(value + slope); }
+  SCARP_HOST_DEVICE double size() const { return first.value + second.value; }
+  SCARP_HOST_DEVICE bool is_finite() const { return (value + slope) - (value + slope) == 0.0; }
 };
 
-inline Point<2, double> unit(Point<2, double> const& a) {
+SCARP_HOST_DEVICE inline Point<2, double> unit(Point<2, double> const& a) {
   double const length = std::hypot(a[0], a[1]);
   return {a[0] / length, a[1] / length};
 }
@@ -58,30 +58,51 @@ struct DirectionArc {
   Point<2, double> split;  ///< where the bound is reached
 };
 
-template <HasSupport Shape>
+/// At most so many entries, in order, without memory of their own.
+template <class Entry, std::size_t most>
+class ShortList {
+ public:
+  SCARP_HOST_DEVICE Entry const& operator[](std::size_t k) const { return entries_[k]; }
+  SCARP_HOST_DEVICE Entry const& last() const { return entries_[count_ - 1]; }
+  SCARP_HOST_DEVICE std::size_t count() const { return count_; }
+  SCARP_HOST_DEVICE void clear() { count_ = 0; }
+  SCARP_HOST_DEVICE void add(Entry const& entry) { entries_[count_++] = entry; }
+  SCARP_HOST_DEVICE void remove(std::size_t k) {
+    for (--count_; k < count_; ++k) entries_[k] = entries_[k + 1];
+  }
+
+ private:
+  std::array<Entry, most> entries_;  // only what is added is ever read
+  std::size_t count_ = 0;
+};
+
+/// The search of `minimum_translation`.
+/// \tparam max_probes directions that are looked at before it gives up
+template <HasSupport Shape, std::size_t max_probes = 500>
 class MinimumTranslation {
  public:
-  MinimumTranslation(PoseOf<Shape> const& first, PoseOf<Shape> const& second, Point<2, double> const& branch)
+  SCARP_HOST_DEVICE MinimumTranslation(PoseOf<Shape> const& first, PoseOf<Shape> const& second,
+                                       Point<2, double> const& branch)
       : first_(first), second_(second), branch_(branch) {}
 
   /// From directions all round. \return whether no other direction can be better by more than 1e-10 of the grains' size
-  bool search() {
+  SCARP_HOST_DEVICE bool search() {
     bool const apart = dot(branch_, branch_) > 0.0;
     return search_from(apart ? unit(branch_) : Point<2, double>{1.0, 0.0},
-                       {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
+                       std::array{0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75});
   }
 
   /// Whether the overlap along a normal at which it is stationary is the least to 1e-10 of the grains' size. Next to
   /// the normal it could be less by the square of the angle to the next probe alone, times the overlap.
-  bool is_least_along(Point<2, double> const& normal) {
+  SCARP_HOST_DEVICE bool is_least_along(Point<2, double> const& normal) {
     auto const there = probe(normal);
     double const beside =
         std::sqrt(1e-10 * there.size() / std::max(there.value, 1e-9 * there.size())) / std::numbers::pi;
-    return search_from(normal, {0.0, beside, 0.5, 1.0, 1.5, 2.0 - beside}) && best_ == 0;
+    return search_from(normal, std::array{0.0, beside, 0.5, 1.0, 1.5, 2.0 - beside}) && best_ == 0;
   }
 
   /// The best direction, brought to where f' vanishes: Newton's steps within a bracket, halved where they leave it.
-  ContactGeometry<2, double> touch() const {
+  SCARP_HOST_DEVICE ContactGeometry<2, double> touch() const {
     OverlapProbe const& start = probes_[best_];
     OverlapProbe at = start;
     double low = -widest(start, false);
@@ -102,25 +123,27 @@ class MinimumTranslation {
 
  private:
   /// angles: from the first direction, in half turns, increasing
-  bool search_from(Point<2, double> const& normal, std::initializer_list<double> angles) {
+  template <std::size_t Count>
+  SCARP_HOST_DEVICE bool search_from(Point<2, double> const& normal, std::array<double, Count> const& angles) {
     probes_.clear();
     arcs_.clear();
     best_ = 0;
     for (double const angle : angles) {
-      probes_.push_back(probe(turned(normal, std::numbers::pi * angle)));
-      if (!probes_.back().is_finite()) return false;
-      if (probes_.back().value < probes_[best_].value - small_gain()) best_ = probes_.size() - 1;
+      probes_.add(probe(turned(normal, std::numbers::pi * angle)));
+      if (!probes_.last().is_finite()) return false;
+      if (probes_.last().value < probes_[best_].value - small_gain()) best_ = probes_.count() - 1;
     }
-    for (std::size_t k = 0; k < angles.size(); ++k) add_arc(k, (k + 1) % angles.size());
-    constexpr std::size_t max_probes = 500;
-    while (probes_.size() < max_probes) {
-      auto const lowest =
-          std::min_element(arcs_.begin(), arcs_.end(), [](auto const& a, auto const& b) { return a.bound < b.bound; });
-      if (!(lowest->bound < probes_[best_].value - 1e-10 * probes_[best_].size())) return true;
-      DirectionArc const arc = *lowest;
-      arcs_.erase(lowest);
-      probes_.push_back(probe(arc.split));
-      std::size_t const middle = probes_.size() - 1;
+    for (std::size_t k = 0; k < Count; ++k) add_arc(k, (k + 1) % Count);
+    while (probes_.count() < max_probes) {
+      std::size_t lowest = 0;
+      for (std::size_t k = 1; k < arcs_.count(); ++k) {
+        if (arcs_[k].bound < arcs_[lowest].bound) lowest = k;
+      }
+      DirectionArc const arc = arcs_[lowest];
+      if (!(arc.bound < probes_[best_].value - 1e-10 * probes_[best_].size())) return true;
+      arcs_.remove(lowest);
+      probes_.add(probe(arc.split));
+      std::size_t const middle = probes_.count() - 1;
       if (!probes_[middle].is_finite()) return false;
       if (probes_[middle].value < probes_[best_].value - small_gain()) best_ = middle;
       add_arc(arc.from, middle);
@@ -130,9 +153,9 @@ class MinimumTranslation {
   }
 
   /// Less than this is round-off of the first probe.
-  double small_gain() const { return 1e-14 * probes_.front().size(); }
+  SCARP_HOST_DEVICE double small_gain() const { return 1e-14 * probes_[0].size(); }
 
-  OverlapProbe probe(Point<2, double> const& n) const {
+  SCARP_HOST_DEVICE OverlapProbe probe(Point<2, double> const& n) const {
     OverlapProbe made{.normal = n, .first = {}, .second = {}, .value = 0.0, .slope = 0.0, .corner = {}};
     if constexpr (HasSupportOfPair<Shape>) {
       auto const both = Shape::supports(first_, second_, n);
@@ -150,7 +173,7 @@ class MinimumTranslation {
   }
 
   /// Between two probes f is at least the larger of two sinusoids, of which each is the larger at its own end.
-  void add_arc(std::size_t from, std::size_t to) {
+  SCARP_HOST_DEVICE void add_arc(std::size_t from, std::size_t to) {
     auto const& a = probes_[from];
     auto const& b = probes_[to];
     auto const inside = [](Point<2, double> const& left, Point<2, double> const& n, Point<2, double> const& right) {
@@ -176,13 +199,14 @@ class MinimumTranslation {
       }
     }
     if (!(cross(a.normal, b.normal) > 1e-14)) arc.bound = std::min(a.value, b.value);  // as fine as directions are
-    arcs_.push_back(arc);
+    arcs_.add(arc);
   }
 
   /// Angle to the nearest probe on one side of the best one.
-  double widest(OverlapProbe const& start, bool to_the_left) const {
+  SCARP_HOST_DEVICE double widest(OverlapProbe const& start, bool to_the_left) const {
     double angle = std::numbers::pi / 4.0;
-    for (auto const& arc : arcs_) {
+    for (std::size_t k = 0; k < arcs_.count(); ++k) {
+      auto const& arc = arcs_[k];
       if ((to_the_left ? arc.from : arc.to) != best_) continue;
       auto const& other = probes_[to_the_left ? arc.to : arc.from].normal;
       angle = std::atan2(std::abs(cross(start.normal, other)), dot(start.normal, other));
@@ -190,13 +214,13 @@ class MinimumTranslation {
     return angle;
   }
 
-  static Point<2, double> turned(Point<2, double> const& n, double angle) {
+  SCARP_HOST_DEVICE static Point<2, double> turned(Point<2, double> const& n, double angle) {
     double const c = std::cos(angle);
     double const s = std::sin(angle);
     return {c * n[0] - s * n[1], s * n[0] + c * n[1]};
   }
 
-  ContactGeometry<2, double> touch_at(OverlapProbe const& at) const {
+  SCARP_HOST_DEVICE ContactGeometry<2, double> touch_at(OverlapProbe const& at) const {
     auto const& n = at.normal;
     Point<2, double> const t{-n[1], n[0]};
     double const radii = at.first.curvature_radius + at.second.curvature_radius;
@@ -213,8 +237,8 @@ class MinimumTranslation {
   PoseOf<Shape> first_;
   PoseOf<Shape> second_;
   Point<2, double> branch_;
-  std::vector<OverlapProbe> probes_;
-  std::vector<DirectionArc> arcs_;
+  ShortList<OverlapProbe, max_probes> probes_;
+  ShortList<DirectionArc, max_probes> arcs_;
   std::size_t best_ = 0;
 };
 

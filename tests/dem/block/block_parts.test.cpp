@@ -12,6 +12,7 @@
 
 namespace {
 
+using blocks::check_renewal;
 using blocks::check_steps;
 using blocks::pressed;
 using blocks::Sample;
@@ -45,7 +46,18 @@ TEST_CASE("a block of superellipses takes the steps of the vector kernel") {
   using Grains = scarp::Packing<scarp::Superellipse, scarp::LinearFrictional>;
   auto const law = samples::study_law();
   scarp::SuperellipseGrading const grading{.smallest = 4e-3, .largest = 6e-3, .aspect = 0.75, .exponent = 0.8};
-  check_steps(Sample<Grains>(pressed<Grains>(grading, law, 60), law), 1e-5, 100);
+  Sample<Grains> const sample(pressed<Grains>(grading, law, 60), law);
+  SUBCASE("without a new list") { check_steps(sample, 1e-5, 100); }
+  SUBCASE("with one") { check_renewal(sample, 1e-12); }
+}
+
+TEST_CASE("corners that meet: the list of a block of superellipses is that of the vector kernel") {
+  using Grains = scarp::Packing<scarp::Superellipse, scarp::LinearFrictional>;
+  auto const law = samples::study_law();
+  for (double const exponent : {0.4, 1.4}) {
+    scarp::SuperellipseGrading const grading{.smallest = 4e-3, .largest = 6e-3, .aspect = 0.6, .exponent = exponent};
+    check_renewal(Sample<Grains>(pressed<Grains>(grading, law, 100), law), 1e-12);
+  }
 }
 
 TEST_CASE("a block of dumbbells takes the steps of the vector kernel") {
@@ -58,7 +70,9 @@ TEST_CASE("a block of dumbbells takes the steps of the vector kernel") {
 TEST_CASE("a block of an own convex shape takes the steps of the vector kernel") {
   using Grains = scarp::Packing<Oval, scarp::LinearFrictional>;
   auto const law = samples::study_law();
-  check_steps(Sample<Grains>(pressed<Grains>(OvalGrading{}, law, 60), law), 1e-5, 100);
+  Sample<Grains> const sample(pressed<Grains>(OvalGrading{}, law, 60), law);
+  SUBCASE("without a new list") { check_steps(sample, 1e-5, 100); }
+  SUBCASE("with one") { check_renewal(sample, 1e-12); }
 }
 
 TEST_CASE("a block of two species takes the steps of the vector kernel") {

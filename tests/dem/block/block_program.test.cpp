@@ -11,6 +11,8 @@
 namespace {
 
 using blocks::check;
+using blocks::check_renewal;
+using blocks::pressed;
 using blocks::Sample;
 using scarp::Tensor;
 
@@ -22,31 +24,6 @@ scarp::Trouble trouble_of(Sample<PackingType> const& sample, Tensor<2> const& st
   blocks::Bytes committed = sample.state(sample.packing);
   blocks::Bytes trial = sample.respond(committed, strain, 50, 2);
   return sample.header(trial).trouble;
-}
-
-template <class PackingType>
-void check_renewal(typename PackingType::Law const& law, double bar, double shear = 0.0) {
-  Sample<PackingType> sample(blocks::pressed<PackingType>(law), law);
-  sample.packing.cell.row(0) += shear * sample.packing.cell.row(1).eval();
-  for (std::size_t i = 0; i < sample.packing.grain_count(); ++i)
-    sample.packing.position(i, 0) += shear * sample.packing.position(i, 1);
-  sample.size.pairs *= 2;
-  sample.packing.pairs.drift = std::numeric_limits<double>::infinity();
-  auto const strain = blocks::shear_step<PackingType::dim>(1e-5);
-  blocks::Bytes committed = sample.state(sample.packing);
-  blocks::Bytes trial = sample.respond(committed, strain, 1, 0);
-  auto const& header = sample.header(trial);
-  scarp::TimeStepper<PackingType> stepper;
-  scarp::StepObservation<PackingType::dim> seen;
-  REQUIRE(stepper.step(sample.packing, law, strain).acceptable());
-  REQUIRE(stepper.observe(sample.packing, law, seen).acceptable());
-  auto const moment = scarp::detail::as_tensor<PackingType::dim>(header.moment);
-  CHECK((moment / sample.packing.volume() + seen.stress).norm() <= 1e-9 * seen.stress.norm());
-  auto const cell = scarp::detail::as_tensor<PackingType::dim>(header.cell);
-  CHECK((cell - sample.packing.cell).norm() <= 1e-12 * cell.norm());
-  CHECK(header.lists == 1);
-  CHECK(static_cast<std::size_t>(header.pairs) == sample.packing.pairs.count());
-  CHECK(header.critical_step == samples::Approx(sample.packing.pairs.critical_step).epsilon(bar));
 }
 
 }  // namespace
@@ -77,16 +54,20 @@ TEST_CASE("a block in single precision takes the steps of the vector kernel") {
 
 TEST_CASE("a list that is made anew has the pairs, memory and critical step of the vector kernel") {
   // Sheared by more than half, a cell is reduced and pairs get other names.
-  SUBCASE("sheared discs") { check_renewal<samples::Discs>(samples::study_law(), 1e-12, 0.7); }
-  SUBCASE("ellipses") { check_renewal<samples::Ellipses>(samples::study_law(), 1e-12); }
+  SUBCASE("sheared discs") {
+    check_renewal(Sample(pressed<samples::Discs>(samples::study_law()), samples::study_law()), 1e-12, 0.7);
+  }
+  SUBCASE("ellipses") {
+    check_renewal(Sample(pressed<samples::Ellipses>(samples::study_law()), samples::study_law()), 1e-12);
+  }
   SUBCASE("ellipses with dashpots whose stiffness grows with the overlap") {
     using Law = scarp::HertzMindlin<scarp::HertzRestitution>;
-    check_renewal<scarp::Packing<scarp::Ellipse, Law>>(
-        Law{.reduced_modulus = 4e9, .reduced_shear_modulus = 1e9, .friction = 0.5, .damping = {0.6}}, 1e-12);
+    Law const law{.reduced_modulus = 4e9, .reduced_shear_modulus = 1e9, .friction = 0.5, .damping = {0.6}};
+    check_renewal(Sample(pressed<scarp::Packing<scarp::Ellipse, Law>>(law), law), 1e-12);
   }
   SUBCASE("sheared spheres") {
     // Both tangents are alike, where the cosine formula of a largest principal value has half of the digits.
-    check_renewal<scarp::Packing<scarp::Sphere, scarp::HertzMindlin<>>>(elastic, 1e-7, 0.7);
+    check_renewal(Sample(pressed<scarp::Packing<scarp::Sphere, scarp::HertzMindlin<>>>(elastic), elastic), 1e-7, 0.7);
   }
 }
 

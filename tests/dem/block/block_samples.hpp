@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -154,6 +155,32 @@ void check_steps(Sample<PackingType> const& sample, double size, int steps) {
 template <class PackingType>
 void check(typename PackingType::Law const& law, double size = 1e-5, int grains = 100) {
   check_steps(Sample<PackingType>(pressed<PackingType>(law, grains), law), size, 100);
+}
+
+/// A list that is made anew, of a cell that was sheared before, against that of the vector kernel. bar: of the critical step
+template <class PackingType>
+void check_renewal(Sample<PackingType> sample, double bar, double shear = 0.0) {
+  sample.packing.cell.row(0) += shear * sample.packing.cell.row(1).eval();
+  for (std::size_t i = 0; i < sample.packing.grain_count(); ++i)
+    sample.packing.position(i, 0) += shear * sample.packing.position(i, 1);
+  sample.size.pairs *= 2;
+  sample.packing.pairs.drift = std::numeric_limits<double>::infinity();
+  auto const strain = shear_step<PackingType::dim>(1e-5);
+  Bytes committed = sample.state(sample.packing);
+  Bytes trial = sample.respond(committed, strain, 1, 0);
+  auto const& header = sample.header(trial);
+  REQUIRE(header.trouble == scarp::Trouble::none);
+  scarp::TimeStepper<PackingType> stepper;
+  scarp::StepObservation<PackingType::dim> seen;
+  REQUIRE(stepper.step(sample.packing, sample.law, strain).acceptable());
+  REQUIRE(stepper.observe(sample.packing, sample.law, seen).acceptable());
+  auto const moment = scarp::detail::as_tensor<PackingType::dim>(header.moment);
+  CHECK((moment / sample.packing.volume() + seen.stress).norm() <= 1e-9 * seen.stress.norm());
+  auto const cell = scarp::detail::as_tensor<PackingType::dim>(header.cell);
+  CHECK((cell - sample.packing.cell).norm() <= 1e-12 * cell.norm());
+  CHECK(header.lists == 1);
+  CHECK(static_cast<std::size_t>(header.pairs) == sample.packing.pairs.count());
+  CHECK(header.critical_step == samples::Approx(sample.packing.pairs.critical_step).epsilon(bar));
 }
 
 }  // namespace blocks

@@ -15,7 +15,8 @@ struct ConvergedTouch {
   bool is_certain;                     ///< whether its overlap is the least: else a slow search must decide
 };
 
-/// Touch of a pair as `converged_contact` finds it, without the slow search, whose memory grows.
+/// Touch of a pair as `converged_contact` finds it; shapes with an inner radius do without the slow search, which they
+/// seldom need.
 template <class Shape>
 SCARP_HOST_DEVICE constexpr ConvergedTouch<Shape::dim> converged_touch(PoseOf<Shape> const& first,
                                                                        PoseOf<Shape> const& second,
@@ -32,10 +33,19 @@ SCARP_HOST_DEVICE constexpr ConvergedTouch<Shape::dim> converged_touch(PoseOf<Sh
       touch = Shape::touch(first, second, branch, before);
       stands = detail::stands_still<Shape::dim>(touch, before);
     }
-    touch.normal_error = 0.0;
     bool is_certain = stands && touch.overlap <= 0.0;
-    if constexpr (HasInnerRadius<Shape>)
+    if constexpr (HasInnerRadius<Shape>) {
       is_certain = stands && touch.overlap < Shape::inner_radius(first) + Shape::inner_radius(second);
+    } else if constexpr (HasSupport<Shape>) {
+      constexpr std::size_t directions = 64;  // 9 kB of a thread's own memory
+      detail::MinimumTranslation<Shape, directions> search(first, second, branch);
+      if (!is_certain) is_certain = stands && search.is_least_along(touch.normal);
+      if (!is_certain && search.search()) {
+        touch = search.touch();
+        is_certain = touch.overlap - touch.overlap == 0.0;
+      }
+    }
+    touch.normal_error = 0.0;
     return {touch, is_certain};
   }
 }
