@@ -7,7 +7,8 @@
 
 namespace scarp {
 
-/// Derivative of a packing's stress by trial: a copy comes to rest, is strained a little in each mode and comes to rest again.
+/// Derivative of a packing's stress by trial: a copy comes to rest, is strained a little in each mode and comes to rest
+/// again.
 /// The stress is Cauchy's of the strained cell, so that terms of the order of the stress itself are in the tangent.
 /// The most exact tangent for its strain and by far the most expensive: some hundred to thousand DEM steps a settling.
 /// \tparam Boundary a `ConstrainsGrains`
