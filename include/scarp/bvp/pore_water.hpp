@@ -108,13 +108,11 @@ class PoreWater {
   }
   void add_stiffness(std::vector<Eigen::Triplet<double>>& entries) const;
   void commit(std::vector<Vector<dim>> const&, Values const& increment);
-
   // What a field needs.
   /// \throws InputError for a clock that goes back, time in impermeable ground, and inflow without an outlet
   void at(double load);
   double next_knot(double load) const { return std::min(settings_.clock.next_knot(load), boundaries_.next_knot(load)); }
-  /// Of the last evaluated step [Pa].
-  FieldTimeError time_error() const {
+  FieldTimeError time_error() const {  ///< of the last evaluated step [Pa]
     return {trial_.time_error, settings_.largest_time_error, view(pressure_).cwiseAbs().maxCoeff()};
   }
   std::string name() const { return "water"; }

@@ -100,8 +100,7 @@ class SCARP_EXPORT Problem {
   double next_knot(double load) const {
     return std::min({loads_.next_knot(load), constraints_.next_knot(load), attached_.next_knot(load)});
   }
-  /// Of a field's last step over what is allowed, 0 without one.
-  double time_error() const { return has_field() ? field()->time_error().over_allowed() : 0.0; }
+  double time_error() const { return has_field() ? field()->time_error().over_allowed() : 0.0; }  ///< Over allowed.
   Grid<Dim> const& grid() const { return *grid_; }               ///< Mesh and elements, committed.
   MaterialPoints<Dim> const& points() const { return points_; }  ///< Materials with committed and trial states.
   MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
