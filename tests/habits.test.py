@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""No tolerance of doctest's own Approx, which is absolute for numbers below one; no rejection that is tested by its type alone; no
+"""No range of CLI11 that NaN passes and no seed without a check; no tolerance of doctest's own Approx, which is absolute for numbers below one; no rejection that is tested by its type alone; no
 everyday word in a comment of include/scarp where the field has a term; a docstring for every public class, enumeration and concept there, and no
 report of a failure that may be dropped."""
 import pathlib
@@ -10,6 +10,8 @@ import terms
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 WRONG = {r"doctest::Approx\(": "takes tolerances that are absolute for small numbers: use samples::Approx",
+         r"CLI::Range\([^()]*[.e][^()]*\)": "lets NaN pass: use examples::number_from",
+         r'add_option\(\s*"--seed",(?:(?!seed_number|;\n)[\s\S])*;\n': "takes any text: check it by examples::seed_number",
          r"CHECK_THROWS\(|CHECK_THROWS_AS\([^;]*(?:InputError|FileError|FolderError|CheckpointError)\);":
          "passes with any refusal on the way: name the quantity and its value by CHECK_REFUSED or samples::message_of"}
 
@@ -17,7 +19,7 @@ TERMS = terms.TERMS | {"(?<!reference )study": "the reference study or (Author, 
 
 faults = []
 files = 0
-for folder in ("tests", "benchmarks"):
+for folder in ("tests", "benchmarks", "examples"):
     for path in sorted((ROOT / folder).rglob("*.[ch]pp")):
         files += 1
         text = path.read_text()

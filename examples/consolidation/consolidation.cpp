@@ -2,6 +2,7 @@
 // Settlement and pore pressure of saturated ground in time: Terzaghi's column, and a strip load on a half plane (McNamee and Gibson).
 #include <CLI/CLI.hpp>
 
+#include "../shared/command_line.hpp"
 #include "../shared/convergence_table.hpp"
 #include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
@@ -65,18 +66,19 @@ int main(int argc, char** argv) {
   examples::declare_version(app);
   app.add_option("--rows", of_column.rows, "elements of the column")->check(CLI::Range(2, 1000));
   app.add_option("--steps", of_column.steps, "time steps of each of the column's stages")->check(CLI::Range(2, 10000));
-  app.add_option("--first", of_column.first, "time factor of the column's first step")->check(CLI::Range(1e-12, 1e-2));
+  app.add_option("--first", of_column.first, "time factor of the column's first step")
+      ->check(examples::number_from(1e-12, true, 1e-2));
   app.add_option("--strip-cells", of_strip.within, "cells from the middle of the strip to its edge")
       ->check(CLI::Range(2, 64));
   app.add_option("--strip-steps", of_strip.steps, "time steps of the strip per factor of ten")
       ->check(CLI::Range(1, 1000));
   app.add_option("--distance", of_strip.distance, "of the mesh's end below the strip, in half widths")
-      ->check(CLI::Range(5.0, 200.0));
+      ->check(examples::number_from(5.0, true, 200.0));
   app.add_option("--max-column-error", column_gate,
                  "largest error of pressures and degrees of consolidation from T = 0.1 on")
-      ->check(CLI::Range(1e-9, 1.0));
+      ->check(examples::number_from(1e-9, true, 1.0));
   app.add_option("--max-strip-error", strip_gate, "largest error of pressures over the load and of G w/(q a)")
-      ->check(CLI::Range(1e-9, 1.0));
+      ->check(examples::number_from(1e-9, true, 1.0));
   app.add_flag("--column-only", column_only, "leave out the strip");
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);

@@ -2,6 +2,7 @@
 // Rankine's earth pressures on a smooth wall, the steepest endless slope, the highest vertical cut in clay.
 #include <CLI/CLI.hpp>
 
+#include "../shared/command_line.hpp"
 #include "../shared/version_option.hpp"
 #include "cut.hpp"
 #include "scarp/element/quad8.hpp"
@@ -70,10 +71,10 @@ int main(int argc, char** argv) {
   examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(2, 6));
   app.add_option("--max-error", gate, "largest error in per cent of wall forces and slopes")
-      ->check(CLI::Range(1e-6, 100.0));
+      ->check(examples::number_from(1e-6, true, 100.0));
   app.add_option("--max-cut-error", cut_gate,
                  "largest error in per cent of the vertical cut; twice as much on two meshes")
-      ->check(CLI::Range(1e-6, 100.0));
+      ->check(examples::number_from(1e-6, true, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);
   examples::Series::print_head();

@@ -2,6 +2,7 @@
 // Rigid footings on springs and on elastic ground, blocks that become rigid, blocks that slide down an incline.
 #include <CLI/CLI.hpp>
 
+#include "../shared/command_line.hpp"
 #include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "block.hpp"
@@ -89,7 +90,7 @@ int main(int argc, char** argv) {
   examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(1, 5));
   app.add_option("--max-slide-error", gate, "largest error in per cent of the tangent at which a block slides")
-      ->check(CLI::Range(1e-6, 100.0));
+      ->check(examples::number_from(1e-6, true, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);
   examples::Series::print_head();

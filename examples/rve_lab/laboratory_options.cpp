@@ -66,7 +66,8 @@ void declare_test(CLI::App& app, Laboratory& test) {
   path("--strain", test.strain, "axial, volumetric (isotropic) or angle of shear at the end")
       ->check(examples::number_from(1e-9, true, 2.0));
   app.add_flag("--extension", test.extension, "the axis lengthens, or shear to the other side")->group("Path");
-  path("--ratio", test.ratio, "of lateral to axial changes on proportional paths")->check(CLI::Range(-10.0, 10.0));
+  path("--ratio", test.ratio, "of lateral to axial changes on proportional paths")
+      ->check(examples::number_from(-10.0, true, 10.0));
   path("--cycles", test.cycles, "to and fro between +amplitude and -amplitude, instead of --strain")
       ->check(CLI::Range(0, 100'000));
   path("--amplitude", test.amplitude, "strain at which a cycle turns round")

@@ -2,6 +2,7 @@
 // How near do finite elements come to Prandtl's and Reissner's bearing capacity factors? Rigid strip footings on Mohr-Coulomb soil.
 #include <CLI/CLI.hpp>
 
+#include "../shared/command_line.hpp"
 #include "../shared/version_option.hpp"
 #include "footing.hpp"
 #include "scarp/bvp/mean_dilatation.hpp"
@@ -77,10 +78,10 @@ int main(int argc, char** argv) {
   app.add_option("--levels", choice.levels, "meshes, each with cells of half the size")->check(CLI::Range(1, 5));
   app.add_option("--only", choice.only, "angles of friction in degrees, a,b,c")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 40.0));
+      ->check(examples::number_from(0.0, true, 40.0));
   app.add_option("--max-error", choice.gate,
                  "largest error in per cent on the finest mesh; 2.5 times as much without a third")
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(examples::number_from(0.01, true, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);
   examples::Series::print_head();

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "../shared/command_line.hpp"
 #include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "elastic_ground.hpp"
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
   app.add_option(
          "--poisson", choice.poisson,
          "ratio; above 0 the upper corners, held at the sides and free above, are singular and spoil quadratic orders")
-      ->check(CLI::Range(0.0, 0.45));
+      ->check(examples::number_from(0.0, true, 0.45));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);
   bool const good = table(choice);

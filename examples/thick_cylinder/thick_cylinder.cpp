@@ -2,6 +2,7 @@
 // Lame's stiffness and the limit pressure of a thick cylinder; the plastic ring round an opening in the ground (Salencon).
 #include <CLI/CLI.hpp>
 
+#include "../shared/command_line.hpp"
 #include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "cylinder.hpp"
@@ -55,10 +56,10 @@ int main(int argc, char** argv) {
   examples::declare_version(app);
   app.add_option("--levels", levels, "meshes, each with twice as many cells along a side")->check(CLI::Range(2, 6));
   app.add_option("--max-cylinder-error", cylinder_gate, "largest error in per cent of stiffness and limit pressure")
-      ->check(CLI::Range(1e-6, 100.0));
+      ->check(examples::number_from(1e-6, true, 100.0));
   app.add_option("--max-opening-error", opening_gate,
                  "largest error in per cent of the plastic radius and the stresses")
-      ->check(CLI::Range(1e-6, 100.0));
+      ->check(examples::number_from(1e-6, true, 100.0));
   app.option_defaults()->always_capture_default();
   CLI11_PARSE(app, argc, argv);
   examples::Series::print_head();

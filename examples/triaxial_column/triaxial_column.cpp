@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Triaxial compression of a column of packings, beside the same test on one packing"};
   examples::declare_version(app);
   app.add_option("--grains", choice.grains, "spheres in a packing")->check(CLI::Range(30, 2000));
-  app.add_option("--seed", choice.seed, "of the packing");
+  app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
   app.add_option("--strain", choice.strain, "shortening at the end")->check(examples::number_from(0.0, false, 0.2));
   app.add_option("--load-step", choice.load_step, "largest shortening of a load step")
       ->check(examples::number_from(0.0, false, 0.01));
