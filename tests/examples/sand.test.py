@@ -5,6 +5,7 @@ a sand again, resumes with the same result, passes over infeasible evaluations, 
 import csv
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -115,7 +116,10 @@ def check_calibration(folder):
              "--evaluations", "10", "--output", "discs"]
     code, said = run(*discs, folder=folder)
     expect(code > 0 and "out of reach: peak-friction 50" in said, f"50 degrees of discs: ended with {code}\n{said}")
-    expect("at the upper end of its bounds" in said.split("limited by")[-1], f"50 degrees of discs are limited by what?\n{said}")
+    # Which bound the best of so few draws lies at depends on round-off: what is said must be so.
+    ends = [f"{name} at the upper end" for name, value in re.findall(r"^(friction|relative-density) ([0-9.]+)", said, re.M) if float(value) > 0.974]
+    expect(all(end in said.split("limited by")[-1] for end in ends or ["no parameter is at its bounds"]),
+           f"50 degrees of discs are limited by what?\n{said}")
     code, said = run(*discs, "--window", "0.01", "--resume", folder=folder)
     expect(code > 0 and "of another calibration" in said, f"--resume with another window: ended with {code}\n{said}")
     # A wanted void ratio is that at the isotropic pressure, whatever the path holds.
