@@ -192,7 +192,7 @@ inline void turn_gmsh_elements(GmshContent& content, int dim) {
     auto const side = [&](std::size_t corner) -> Vector<3> { return place(corner) - place(0); };
     if (dim == 2) {
       for (std::size_t a = 2; a < corners; ++a) size += side(a - 1).cross(side(a)).z();
-    } else if (corners > 0) {
+    } else if (dim == 3 && corners > 0) {
       bool const on_triangle = corners == 4 || corners == 6;  // its first side: of tetrahedra and prisms
       size = side(1).cross(side(on_triangle ? 2 : 3)).dot(side(on_triangle ? 3 : 4));
     }
