@@ -279,7 +279,8 @@ after(0.5, lambda: scarp.spheres(grains=20000, packings=3, threads=2), 2)
 sand = scarp.discs(grains=80)
 after(0.2, lambda: scarp.MaterialPoints(sand, np.zeros((30000, 2))))
 """
-done = subprocess.run([sys.executable, "-B", "-c", interrupted], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
+done = subprocess.run([sys.executable, "-B", "-c", interrupted], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True,
+                      timeout=1800 if "ASAN_OPTIONS" in os.environ else 300)
 expect(done.returncode == 0, f"Ctrl-C in long work: {done.returncode} {done.stderr}")
 
 # An interpreter without NumPy, and one that the module was not built for.
