@@ -10,9 +10,14 @@ namespace adversary {
 
 namespace {
 
+// Has neither surfaces nor volumes.
+constexpr auto line_alone =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n2 1 0 0\n$EndNodes\n"
+    "$Elements\n1\n1 1 2 1 1 1 2\n$EndElements\n";
+
 template <class Element>
 Game gmsh_reader() {
-  std::vector<std::string> samples;
+  std::vector<std::string> samples{line_alone};
   ScratchFolder const folder;
   auto const mesh = samples::mesh_sample<Element>(samples::bent);
   for (auto const version : {scarp::GmshVersion::v2_2, scarp::GmshVersion::v4_0, scarp::GmshVersion::v4_1}) {
