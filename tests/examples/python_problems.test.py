@@ -206,7 +206,8 @@ with tempfile.TemporaryDirectory() as scratch:
     analysis.save(file)
     analysis.save(str(file))
     program = f"import scarp; own = scarp.load_analysis({str(file)!r}); run = own.to(1.5); print(own.reaction('top').tobytes().hex(), run.iterations)"
-    told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True, timeout=300)
+    told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True,
+                          timeout=1800 if "ASAN_OPTIONS" in os.environ else 300)
     other = scarp.load_analysis(file, threads=1, tolerance=1e-3)
     rejected(TypeError, "treads", lambda: scarp.load_analysis(file, treads=1))
     unknown = f"import pickle, sys; import scarp\nclass Own: pass\npickle.dump(Own(), open({str(file) + 'x'!r}, 'wb'))"
