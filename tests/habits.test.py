@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
-"""No range of CLI11 that NaN passes and no seed without a check; no tolerance of doctest's own Approx, which is absolute for numbers below one; no rejection that is tested by its type alone; no
-everyday word in a comment of include/scarp where the field has a term; a docstring for every public class, enumeration and concept there, and no
-report of a failure that may be dropped."""
+"""No range of CLI11 that NaN passes and no seed without a check; no tolerance of doctest's own Approx, which is absolute for numbers below
+one; no rejection that is tested by its type alone; no everyday word in a comment of include/scarp where the field has a term; a docstring for every
+public class, enumeration and concept there, and no report of a failure that may be dropped."""
 import pathlib
 import re
 import sys

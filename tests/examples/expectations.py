@@ -6,6 +6,7 @@ import pathlib
 import sys
 
 NIGHTLY = os.environ.get("SCARP_TESTS") == "nightly"  # what takes long then runs too
+SLOWER = 10 if "ASAN_OPTIONS" in os.environ else 1  # than without a sanitizer: factor of limits of time
 troubles = []
 checks = 0
 

@@ -13,7 +13,7 @@ import tempfile
 import threading
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish, leave_out, python_module, rejected
+from expectations import SLOWER, expect, finish, leave_out, python_module, rejected
 
 module = python_module()
 import numpy as np
@@ -237,10 +237,9 @@ worker.join()
 
 # Ctrl-C ends work of minutes within a second: of CPU time for each thread, of which a busy machine gives less. A limit of CPU time ends the process where
 # it does not. Committed states and later responses stay as they were.
-interrupted = """
+interrupted = f"slower = {SLOWER}" + """
 import os, signal, sys, threading, time
 import numpy as np, scarp
-slower = 10 if "ASAN_OPTIONS" in os.environ else 1
 signal.setitimer(signal.ITIMER_PROF, 60 * slower)
 def after(seconds, work, threads=1):
     moments = []
@@ -280,7 +279,7 @@ sand = scarp.discs(grains=80)
 after(0.2, lambda: scarp.MaterialPoints(sand, np.zeros((30000, 2))))
 """
 done = subprocess.run([sys.executable, "-B", "-c", interrupted], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True,
-                      timeout=1800 if "ASAN_OPTIONS" in os.environ else 300)
+                      timeout=300 * SLOWER)
 expect(done.returncode == 0, f"Ctrl-C in long work: {done.returncode} {done.stderr}")
 
 # An interpreter without NumPy, and one that the module was not built for.

@@ -16,7 +16,7 @@ import time
 import warnings
 
 sys.dont_write_bytecode = True  # the import below leaves no folder in the sources
-from expectations import expect, finish, leave_out, python_module, rejected
+from expectations import SLOWER, expect, finish, leave_out, python_module, rejected
 
 module = python_module()
 import numpy as np
@@ -207,7 +207,7 @@ with tempfile.TemporaryDirectory() as scratch:
     analysis.save(str(file))
     program = f"import scarp; own = scarp.load_analysis({str(file)!r}); run = own.to(1.5); print(own.reaction('top').tobytes().hex(), run.iterations)"
     told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": str(module)}, capture_output=True, text=True,
-                          timeout=1800 if "ASAN_OPTIONS" in os.environ else 300)
+                          timeout=300 * SLOWER)
     other = scarp.load_analysis(file, threads=1, tolerance=1e-3)
     rejected(TypeError, "treads", lambda: scarp.load_analysis(file, treads=1))
     unknown = f"import pickle, sys; import scarp\nclass Own: pass\npickle.dump(Own(), open({str(file) + 'x'!r}, 'wb'))"
