@@ -16,6 +16,7 @@ using blocks::pressed;
 using blocks::Sample;
 using scarp::Tensor;
 
+using Single = scarp::Packing<scarp::Ellipse, scarp::LinearFrictional, float>;
 using Rolling = scarp::RollingResistance<scarp::LinearFrictional>;
 scarp::HertzMindlin<> const elastic{.reduced_modulus = 4e9, .reduced_shear_modulus = 1e9, .friction = 0.5};
 
@@ -49,7 +50,11 @@ TEST_CASE("a block of spheres takes the steps of the vector kernel") {
 }
 
 TEST_CASE("a block in single precision takes the steps of the vector kernel") {
-  check<scarp::Packing<scarp::Ellipse, scarp::LinearFrictional, float>>(samples::study_law(), 1e-5, 400);
+  check<Single>(samples::study_law(), 1e-5, 400);
+}
+
+TEST_CASE("a block in single precision takes few steps of the vector kernel to round-off") {
+  check<Single>(samples::study_law(), 1e-5, 100, 10);
 }
 
 TEST_CASE("a list that is made anew has the pairs, memory and critical step of the vector kernel") {
