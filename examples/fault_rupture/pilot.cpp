@@ -26,6 +26,7 @@ void run_pilot(Choice& choice) {
   pilot.length = std::max(pilot_length * choice.scale(), 2.0 * choice.mesh_size);
   pilot.tolerance = 1e-3;
   pilot.max_displacement_gradient.reset();
+  pilot.largest_time_error.reset();
   // Its rupture comes out where that of the reference study's sand does with a length of 2 m, within 1 m.
   pilot.peak_friction_angle = 35.0;
   pilot.peak_dilation_angle = 9.0;

@@ -248,7 +248,7 @@ def figures_of(folder):
         chosen |= {"probe_packings": grain_figures.packings, "probe_roses": grain_figures.roses}
     if (folder / "footing.csv").exists():
         chosen |= {"footing": footing_figures.footing, "base_pressure": footing_figures.base_pressure}
-    if (folder / "water.csv").exists():
+    if water_figures.has_begun(folder):
         chosen |= {"excess_pressure": water_figures.excess_pressure, "pressures": water_figures.pressures, "water": water_figures.water}
     return chosen
 

@@ -10,6 +10,12 @@ from matplotlib.tri import Triangulation
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
 
+def has_begun(folder):
+    """Whether the fault has moved in ground with water."""
+    path = folder / "water.csv"
+    return path.exists() and bool((figures.read_csv(path, ["time"])["time"] > 0.0).any())
+
+
 def end_of_throw(folder):
     """Load factor from which the bedrock rests."""
     return figures.read_csv(folder / "water.csv", ["throw_over_depth"])["throw_over_depth"][-1]

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -41,28 +42,28 @@ class WaterLog : public scarp::NeverStops {
   void attempted(Problem const& problem, scarp::StepReport const& report) {
     rest_.attempted(problem, report);
     if (!report.verdict.acceptable()) return;
-    if (!(report.load > 0.0)) {
-      begun_ = water_of(problem).time();
-      expelled_ = water_of(problem).expelled();
-    }
+    if (!(report.load > 0.0)) expelled_ = water_of(problem).expelled();
     if (report.load < 0.0) return;
     rows_.push_back(row_of(problem, report.load));
     std::apply([&](auto... values) { table_.add(values...); }, rows_.back());
   }
 
-  /// What the water did by the end of the throw, a minute later and at the end.
+  /// What the water did by the end of the throw, a minute later and at the end, as far as the run has come.
   void add_to(nlohmann::ordered_json& json) const {
+    if (rows_.empty()) return;
+    auto const add = [&](char const* when, Row const& row) {
+      for (std::size_t k = 0; k < names.size(); ++k) json["water"][when][names[k]] = row[k];
+    };
     double const thrown = scene_.structure.times.rupture;
-    for (auto const& [when, until] : {std::pair("after_the_throw", thrown), std::pair("after_a_minute", thrown + 60.0),
-                                      std::pair("at_the_end", std::numeric_limits<double>::infinity())}) {
-      double const last = until * (1.0 + 1e-6);
-      auto const end = std::ranges::find_if(rows_, [&](Row const& row) { return row[1] > last; });
-      if (end == rows_.begin()) continue;
-      for (std::size_t k = 0; k < names.size(); ++k) json["water"][when][names[k]] = (*std::prev(end))[k];
+    for (auto const& [when, time] :
+         {std::pair("after_the_throw", thrown), std::pair("after_a_minute", thrown + 60.0)}) {
+      auto const is_then = [time = time](Row const& row) { return std::abs(row[1] - time) <= 1e-9 * time; };
+      if (auto const row = std::ranges::find_if(rows_, is_then); row != rows_.end()) add(when, *row);
     }
+    add("at_the_end", rows_.back());
   }
 
-  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_, begun_, expelled_)
+  SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_, expelled_)
 
  private:
   static constexpr std::array names{"throw_over_depth",
@@ -103,7 +104,7 @@ class WaterLog : public scarp::NeverStops {
       tilt = motion.tilt;
     }
     return {std::min(load, scene_.throw_to) / unit_,
-            water.time() - begun_,
+            water.time(),
             least,
             most,
             ratio,
@@ -120,8 +121,7 @@ class WaterLog : public scarp::NeverStops {
   scarp::CsvLog table_;
   scarp::GroundAtRest<2> rest_;
   std::vector<Row> rows_;
-  double begun_ = 0.0;     ///< time when the fault begins to move [s]
-  double expelled_ = 0.0;  ///< until then [m3]
+  double expelled_ = 0.0;  ///< until the fault begins to move [m3]
 };
 
 template <class Structure>

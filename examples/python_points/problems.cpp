@@ -55,7 +55,12 @@ std::vector<int> numbers_of(py::object const& given, char const* what, int colum
   using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
   auto const wide = Integers::ensure(array);
   std::vector<int> numbers;
-  for (py::ssize_t k = 0; k < wide.size(); ++k) numbers.push_back(static_cast<int>(wide.data()[k]));
+  for (py::ssize_t k = 0; k < wide.size(); ++k) {
+    auto const number = wide.data()[k];
+    if (!std::in_range<int>(number))
+      scarp::reject("{} hold {} (no mesh has as many): give numbers from 0", what, number);
+    numbers.push_back(static_cast<int>(number));
+  }
   return numbers;
 }
 
@@ -200,7 +205,15 @@ class SeriesUse {
   ~SeriesUse() {
     if (series_) series_->is_in_use = false;
   }
-  scarp::FieldSeries* files() const { return series_ ? &series_->files : nullptr; }
+  /// The files of a run that begins at a load factor. \throws InputError where there are later ones
+  scarp::FieldSeries* from(double load) const {
+    if (series_ && load < series_->files.last())
+      scarp::reject(
+          "the series has files up to the load factor {} (the run begins at {}, and what is there is not written "
+          "again): give each run a series of its own",
+          series_->files.last(), load);
+    return series_ ? &series_->files : nullptr;
+  }
 
  private:
   OwnSeries* series_;
@@ -250,11 +263,12 @@ py::dict advance(OwnAnalysis<Dim>& own, double load, py::object const& observer,
                  std::optional<double> seconds) {
   SeriesUse const use(series);
   auto const [run, why] = own.at_work([&](scarp::Analysis<Dim>& analysis) {
+    auto* const files = use.from(analysis.load());
     py::gil_scoped_release const release;
     Signals signals;
-    Watcher<Dim> watcher{observer, use.files(), signals, end_of(seconds)};
+    Watcher<Dim> watcher{observer, files, signals, end_of(seconds)};
     auto const report = analysis.to(load, watcher);
-    if (use.files()) use.files()->ended(analysis.problem(), report.load);
+    if (files) files->ended(analysis.problem(), report.load);
     return std::pair(report, analysis.why(report));
   });
   return report_of(run, why);
@@ -270,11 +284,12 @@ py::dict find_collapse(OwnAnalysis<Dim>& own, double load, double failed, double
                        OwnSeries* series, std::optional<double> seconds) {
   SeriesUse const use(series);
   return collapse_of(own.at_work([&](scarp::Analysis<Dim>& analysis) {
+    auto* const files = use.from(analysis.load());
     py::gil_scoped_release const release;
     Signals signals;
-    Watcher<Dim> watcher{observer, use.files(), signals, end_of(seconds)};
+    Watcher<Dim> watcher{observer, files, signals, end_of(seconds)};
     auto end = scarp::find_collapse(analysis, load, {.failed = failed, .failing = failing}, watcher);
-    if (use.files()) use.files()->ended(analysis.problem(), end.load);
+    if (files) files->ended(analysis.problem(), end.load);
     return end;
   }));
 }

@@ -91,13 +91,13 @@ struct PythonMaterial {
     for (auto const& request : requests) {
       scarp::RotatedIncrement<Dim> const moved(*request.increment);
       *request.trial = *request.committed;
-      request.trial->is_answered = true;
       request.trial->verdict = moved.verdict;
       if (!moved.verdict.acceptable()) continue;
       able.push_back(request);
       moves.push_back(moved);
     }
     if (!able.empty()) provider.answer(able, moves);
+    for (auto const& request : requests) request.trial->is_answered = true;  // not where the material has raised
   }
 
   /// Named numbers of a state: the material's own variables.

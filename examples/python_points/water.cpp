@@ -53,14 +53,16 @@ bool attached_to(scarp::Model<GridType::dim>& model, WaterOptions const& options
 
 template <int Dim>
 void attach_water(scarp::Model<Dim>& model, WaterOptions const& options) {
-  static_cast<void>(any_element([&]<class Element>(std::string_view, std::type_identity<Element>) {
+  bool const has_water = any_element([&]<class Element>(std::string_view, std::type_identity<Element>) {
     if constexpr (Element::dim == Dim) {
       return attached_to<scarp::DefaultGrid<Element>>(model, options) ||
              attached_to<SmallGrid<Element>>(model, options);
     } else {
       return false;
     }
-  }));
+  });
+  if (!has_water)
+    scarp::reject("water is given to elements that have none here (see the list of scarp.Mesh): take another kind");
 }
 
 template void attach_water<2>(scarp::Model<2>&, WaterOptions const&);

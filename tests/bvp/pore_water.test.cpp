@@ -231,6 +231,32 @@ TEST_CASE("water that flows steadily through two layers has the pressures of Dar
   }
 }
 
+namespace {
+struct Rough : scarp::LinearElastic<2> {
+  static constexpr bool exact_tangent = false;
+};
+}  // namespace
+
+TEST_CASE("water that flows into ground whose tangents are no derivatives flows through it") {
+  auto const grid = column_grid<Quad8>();
+  double const conductivity = 1e-5, rate = 1e-7;
+  PoreWater water(grid, ConstantPermeability{.conductivity = conductivity},
+                  {.shear_modulus = shear, .clock = TimeFunction({{0.0, 0.0}, {1.0, 1e4}})});
+  water.drain({"top"});
+  water.inflow({"bottom"}, rate);
+  scarp::Model model(grid);
+  model.fix({"left", "right"}, 0);
+  model.fix({"bottom"}, 1);
+  model.material("soil", Rough{scarp::LinearElastic<2>::from_young_poisson(young, poisson)});
+  model.attach(water);
+  scarp::Analysis analysis(model, {.threads = 1});
+  auto const run = analysis.to(1.0);
+  INFO(analysis.why(run));
+  REQUIRE(run.verdict.acceptable());
+  CHECK(std::ranges::max(pressures(analysis, water)) ==
+        Approx(rate / conductivity * 9.81e3 * height).epsilon(0.01));  // Darcy
+}
+
 TEST_CASE("pores close with the ground, and less water passes") {
   auto const grid = column_grid<Quad8, scarp::UpdatedLagrangian>();
   PoreWater water(grid, KozenyCarman{.grain = 1e-4}, {.shear_modulus = shear, .void_ratio = 0.6});
@@ -387,6 +413,9 @@ TEST_CASE("pore water without sense is refused") {
   for (auto const& knots : {std::vector<std::pair<double, double>>{{0.0, -1.0}}, {{0.0, 0.0}, {1.0, 5.0}, {2.0, 4.0}}})
     CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .clock = TimeFunction(knots)}), "clock",
                   "do not fall");
+  CHECK_REFUSED(
+      PoreWater(grid, clay, {.shear_modulus = shear, .clock = TimeFunction({{0.0, 1.0}, {1.0, 2.0}}), .begin = 1.5}),
+      "clock", "shows 1 s", "after 1.5 s");
   CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .at_rest = scarp::WaterAtRest{.level = infinite}}),
                 "height of the water table");
   CHECK_REFUSED(PoreWater(grid, clay, {.shear_modulus = shear, .at_rest = scarp::WaterAtRest{.unit_weight = 0.0}}),
@@ -410,12 +439,46 @@ TEST_CASE("pore water without sense is refused") {
   CHECK_REFUSED(rock.at(1.0), "1 s pass in ground that is impermeable");
   rock.at(0.0);  // undrained: no time passes
 
+  auto mesh = grid.mesh();
+  mesh.regions.push_back("slab");
+  for (std::size_t e = 6; e < mesh.elements.size(); ++e) mesh.element_region[e] = 1;  // the uppermost row
+  Ground<Quad8> const covered(mesh);
+  for (bool const is_excluded_first : {true, false}) {
+    auto const made = [&](auto const& give) {
+      PoreWater below(covered, clay, settings);
+      if (is_excluded_first) below.exclude("slab");
+      give(below);
+      if (!is_excluded_first) below.exclude("slab");
+    };
+    CHECK_REFUSED(made([](auto& below) { below.inflow({"top"}, 1e-8); }), "no water is around it");
+    CHECK_REFUSED(made([](auto& below) { below.prescribe({"top"}, 5e3); }), "no water is around it");
+    made([](auto& below) { below.drain({"top"}); });
+  }
+  PoreWater capped(covered, clay, settings);
+  capped.exclude("slab");
+  capped.inflow({"bottom"}, 1e-8);
+  CHECK_REFUSED(capped.at(1.0), "impermeable everywhere else");
+
   auto model = column(grid, water);
   CHECK_REFUSED(model.attach(water), "second field");
   scarp::SerialExecutor serial;
+  Ground<Quad8> const finer(scarp::BoxMesh<Quad8>{.lengths = Vector<2>(width, height), .cells = {2, 5}}.generate());
+  CHECK_REFUSED(column(finer, water).problem(serial), "other elements or another mesh");
+  Ground<Quad8> const turned(scarp::BoxMesh<Quad8>{.lengths = Vector<2>(width, height), .cells = {4, 2}}.generate());
+  REQUIRE(turned.dof_count() == grid.dof_count());
+  CHECK_REFUSED(column(turned, water).problem(serial), "other elements or another mesh");
+  using Reduced = scarp::Discretisation<Quad8, scarp::UpdatedLagrangian, scarp::DefaultIntegration<Quad8>>;
+  scarp::Model<2> moving(Reduced(grid.mesh()));
+  moving.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, poisson));
+  moving.attach(water);
+  CHECK_REFUSED(moving.problem(serial), "other elements or another mesh");
   scarp::Constraints constraints(grid, water.extra_dofs());
-  constraints.move_extra(0, 0.0);
+  Eigen::VectorXd load_on_water = Eigen::VectorXd::Zero(grid.dof_count() + water.extra_dofs());
+  load_on_water(grid.dof_count()) = 1.0;
   scarp::Region const soil{"soil", scarp::LinearElastic<2>::from_young_poisson(young, poisson)};
+  CHECK_REFUSED(make_problem(grid, height, boost::hana::make_tuple(soil), constraints, load_on_water, serial, water),
+                "load acts on a degree of freedom of water");
+  constraints.move_extra(0, 0.0);
   CHECK_REFUSED(make_problem(grid, height, boost::hana::make_tuple(soil), constraints, {}, serial, water),
                 "pore pressure at node 0", "prescribed by a constraint");
 }

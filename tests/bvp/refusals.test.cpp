@@ -66,6 +66,11 @@ TEST_CASE("facets that are none, or one that would count twice, are refused") {
   CHECK_REFUSED(scarp::FacetChain(Facets{}), "a chain of facets", "no facets");
   CHECK_REFUSED(scarp::FacetChain(Facets{{0, 1}, {1, 2}, {0, 1}}), "a chain of facets", "(0, 1) twice");
   CHECK_REFUSED(scarp::FacetChain(Facets{{3, 1}, {1, 3}}), "(1, 3) twice");
+  CHECK_REFUSED(scarp::FacetChain(Facets{{0, 1}, {-1, 2}}), "node -1", "count from 0");
+  scarp::FollowingPressure<> const beyond(Facets{{0, 1}, {1, 9}}, 1e5);
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(18);
+  CHECK_REFUSED(beyond.add_forces(std::vector<scarp::Vector<2>>(9, {0.0, 0.0}), forces, forces), "node 9",
+                "the mesh has 9");
   CHECK_REFUSED(scarp::FollowingPressure<>(Facets{}, 1e5), "a following pressure", "no facets");
   CHECK_REFUSED(scarp::FollowingPressure<>(Facets{{0, 1}, {1, 2}, {2, 1}}, 1e5), "a following pressure",
                 "(1, 2) twice");

@@ -198,6 +198,8 @@ else:
            f"{within.regions} {within.element_region} {within.notes}")
     clockwise = scarp.Mesh.from_meshio(meshio.Mesh(flat, [("triangle", [[0, 2, 1], [0, 2, 3]])]))
     expect(clockwise.elements.tolist() == [[0, 2, 1], [0, 2, 3]], f"elements are turned: {clockwise.elements}")
+    slanted = np.column_stack([flat[:, :2], 5.0 * flat[:, 0]])
+    rejected(ValueError, "a plane mesh has one z", lambda: scarp.Mesh.from_meshio(meshio.Mesh(slanted, cells)))
     back = scarp.Mesh.from_meshio(box("hex8").quadratic().to_meshio())
     expect((back.element, len(back.elements)) == ("hex20", 12), f"{back}")
 

@@ -226,6 +226,80 @@ expect(told.stdout.split() == [analysis.reaction("top").tobytes().hex(), str(run
 expect(analysis.picture(0)["grains"].shape == (40, 6) and "coordination" in analysis.quantities(0), "no picture of a packing")
 expect(abs(analysis.displacement("top", 0) / 0.0075 - 1.0) < 1e-12, f"the top is at {analysis.displacement('top', 0)} at the load factor 1.5")
 
+# A step of the size of round-off, between two that are not, leaves the next one as it would be.
+sheared = scarp.Model(scarp.box_mesh("quad8", [1.0, 1.0], [2, 2]), kinematics="small_strain")
+sheared.fix(["left", "right"], 0)
+sheared.fix("bottom")
+sheared.move("top", 1, -0.004)
+sheared.material("soil", scarp.discs(grains=60, packings=2, thickness=1.0))
+steps = []
+for loads in ([0.3, 0.4], [0.3, 0.1 + 0.2, 0.4], [0.3, 0.3 + 1e-7, 0.4]):
+    analysis = scarp.Analysis(sheared)
+    runs = [analysis.to(load) for load in loads]
+    steps.append((runs[-1].steps, runs[-1].refused))
+expect(0.1 + 0.2 > 0.3 and steps[0] == steps[1] == steps[2], f"steps and refused ones after a tiny step: {steps}")
+
+# A material that raises has not responded: what it answered before is not taken for the next response.
+halves = scarp.box_mesh("tri3", [1.0, 1.0], [1, 1])
+halves = scarp.Mesh("tri3", halves.nodes, halves.elements, ["lower", "upper"], [0, 1], halves.boundaries)
+
+
+class RaisesOnce(All):
+    calls = 0
+
+    def respond_all(self, strains, stresses, variables):
+        RaisesOnce.calls += 1
+        if np.any(strains != 0.0) and not getattr(RaisesOnce, "has_raised", False):
+            RaisesOnce.has_raised = True
+            raise ZeroDivisionError("once")
+        return super().respond_all(strains, stresses, variables)
+
+
+pressed = scarp.Model(halves, kinematics="small_strain")
+pressed.fix(["bottom", "left", "right"], 0)
+pressed.fix("top", 0)
+pressed.fix("bottom", 1)
+pressed.move("top", 1, -0.01)
+for region in ("lower", "upper"):
+    pressed.material(region, RaisesOnce(2))
+analysis = scarp.Analysis(pressed, first=1.0, largest=1.0, max_displacement_gradient=1.0)
+rejected(ZeroDivisionError, "once", lambda: analysis.to(1.0))
+analysis.to(1.0)
+expect(np.allclose(analysis.stresses[0], analysis.stresses[1], rtol=1e-9), f"one strain has two stresses: {analysis.stresses}")
+
+# What is saved is what ran: the caller's arrays, rejected calls and the level of the surface.
+force = np.array([0.0, -1e3])
+loaded = scarp.Model(scarp.box_mesh("quad4", [2.0, 2.0], [2, 2]))
+loaded.traction("top", force)
+force[1] = -5e3
+loaded.set_surface_level(10.0)
+loaded.move("right", 0, 0.01)
+rejected(ValueError, "prescribed twice", lambda: loaded.fix("bottom", 0))
+loaded.fix("bottom", 1)
+
+
+class Deep(One):
+    def start(self, position, depth):
+        expect(depth > 7.9, f"a material begins {depth} m below the surface")
+        return super().start(position, depth)
+
+
+loaded.material("soil", Deep(2))
+with warnings.catch_warnings():
+    warnings.simplefilter("error")
+    rejected(ValueError, "no provider", lambda: scarp.Analysis(scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [1, 1]))))
+    analysis = scarp.Analysis(loaded)
+again = pickle.loads(pickle.dumps(analysis))
+for one in (analysis, again):
+    one.to(1.0)
+expect(np.array_equal(analysis.positions, again.positions) and abs(analysis.model.dead_load()[1] + 2e3) < 1e-9, "a restored model has other loads")
+bare = scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [1, 1]))
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    rejected(ValueError, "no provider", lambda: scarp.Analysis(bare))
+    bare.material("soil", One(2))
+expect(not said, f"an analysis that was never made warns: {[str(one.message) for one in said]}")
+
 # What a model gets after an analysis was made of it belongs to neither the analysis nor its copies.
 model = footing(lambda rest: One(2, **rest))
 early = scarp.Analysis(model)
@@ -259,6 +333,12 @@ with tempfile.TemporaryDirectory() as scratch:
         analysis.plot().figure.savefig(folder / "ground.png")
         for values in (analysis.displacements[:, 1], analysis.stresses[:, 0], np.arange(32.0)):
             analysis.plot(values, "other")
+        square = scarp.Analysis(footing(lambda rest: One(2, **rest), scarp.box_mesh("tri3", [1.0, 1.0], [2, 3])))
+        rejected(ValueError, "as many elements and points and nodes", lambda: square.plot(square.displacements[:, 1]))
+        shown = [square.plot(square.displacements[:, 1], at=at).collections[0].get_array() for at in ("elements", "nodes")]
+        expect(np.allclose(shown[1], square.displacements[square.mesh.corners, 1].mean(axis=1)), "numbers of nodes are drawn as those of elements")
+        square.plot()
+        rejected(ValueError, "a number for each of elements, points or nodes", lambda: square.plot(np.zeros(12), at="corners"))
         matplotlib.pyplot.close("all")
         for values in ([1, 2, 3], analysis.stresses):
             rejected(ValueError, "a number for each of 32 elements", lambda: analysis.plot(values))
@@ -533,9 +613,23 @@ with tempfile.TemporaryDirectory() as scratch:
     series = scarp.FieldSeries(scratch)
     one, other = (scarp.Analysis(footing(lambda rest: One(2, **rest))) for _ in range(2))
     one.to(0.1, observers=lambda own, step: rejected(RuntimeError, "one at a time", lambda: other.to(0.1, fields=series)), fields=series)
-    other.find_collapse(0.1, fields=series)
+    rejected(ValueError, "files up to the load factor 0.1", lambda: other.find_collapse(0.1, fields=series))
     rejected(ZeroDivisionError, "at ", lambda: one.to(0.2, observers=fails, fields=series))
     one.to(0.3, fields=series)
+
+# Meshes and boundaries that are changed, or are other than they look.
+square = scarp.box_mesh("quad4", [1.0, 1.0], [1, 1])
+square.elements = square.elements.astype(np.int64) + 2**32
+rejected(ValueError, "elements hold 4294967296", lambda: scarp.Model(square))
+square = scarp.box_mesh("quad4", [1.0, 1.0], [1, 1])
+square.boundaries["crest"] = [[2, 3]]
+scarp.Model(square).fix("crest")
+good = scarp.box_mesh("quad4", [1.0, 1.0], [1, 1])
+rejected(ValueError, "two regions 'soil'", lambda: scarp.Model(scarp.Mesh("quad4", good.nodes, good.elements, ["soil", "soil"], [0])))
+spare = scarp.Mesh("quad4", good.nodes, good.elements, ["soil", "rock"], [0])
+rejected(ValueError, "region 'rock' has no elements", lambda: scarp.Model(spare).material("rock", One(2)))
+for given in ((1.0,), (1.0, [(0, 0)], 2), "much", (1.0, 2.0)):
+    rejected(ValueError, "water at 'top' is given as", lambda: scarp.Model(good).water(shear_modulus=1.0, clock=[(0, 0)], pressures={"top": given}))
 
 # Wrong calls: each parameter of each function with each of these values ends in an exception in words, or in a use that the value allows.
 good_mesh = scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])

@@ -65,6 +65,13 @@ with open(pathlib.Path(scratch.name, "fast", "water.csv"), encoding="utf-8") as 
     times = [float(row["time"]) for row in csv.DictReader(file)]
 expect(times == sorted(times) and abs(times[-1] - 1e6 - thrown["time"]) < 1.0, f"times {times[:3]} to {times[-1]}")
 
+expect(abs(later["time"] - thrown["time"] - 60.0) < 1e-6, f"a minute after the throw is {later['time'] - thrown['time']} s")
+# Water that needs ages to drain before the throw: the clock of the throw keeps its digits.
+run(WET, "clay", *SOIL, "--water-table", 0, "--slip-rate", 1, "--conductivity", 1e-12, "--drain", 10)
+clay = told("clay")["water"]
+expect(abs(clay["after_the_throw"]["time"] / thrown["time"] - 1.0) < 1e-12, f"the throw takes {clay['after_the_throw']['time']} s")
+expect("after_a_minute" not in clay, "a run that ends before has a minute after the throw")
+
 # A run in two parts has the bits of one.
 whole = [*SOIL, "--water-table", 0, "--drain", 100]
 run(WET, "whole", *whole)
@@ -94,9 +101,11 @@ run(WET, "sand", "--quick", "--grains", 49, "--water-table", 4, "--throw-over-de
 found = [told(name)["water"]["after_the_throw"]["excess_pressure_min"] for name in ("packings", "sand")]
 expect(abs(found[1] / found[0] - 1.0) < 1e-3, f"suction with the conductivity of an option and of a sand: {found}")
 
-done = subprocess.run([sys.executable, str(PLOT), str(pathlib.Path(scratch.name, "footing"))], capture_output=True, text=True,
-                      env={**os.environ, "MPLBACKEND": "Agg"})
-expect(done.returncode == 0, done.stderr)
+run(WET, "stopped", *SOIL, "--water-table", 0, "--time-limit", 0.001, code=130)
+for name in ("stopped", "footing"):
+    done = subprocess.run([sys.executable, str(PLOT), str(pathlib.Path(scratch.name, name))], capture_output=True, text=True,
+                          env={**os.environ, "MPLBACKEND": "Agg"})
+    expect(done.returncode == 0, f"figures of {name}: {done.stderr}")
 for name in ("excess_pressure.png", "pressures.gif", "water.png"):
     expect(pathlib.Path(scratch.name, "footing", "figures", name).stat().st_size > 10_000, f"no figure {name}")
 

@@ -160,4 +160,5 @@ TEST_CASE("settings that make no sense are rejected") {
     return model;
   };
   CHECK_REFUSED(scarp::reduce_strength(later), "loads change at 2");
+  CHECK_REFUSED(scarp::reduce_strength(slope, {.load = 0.5}), "loads change at 1");  // half of the weight
 }

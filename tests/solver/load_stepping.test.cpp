@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "scarp/bvp/discretisation.hpp"
 #include "support/approx.hpp"
 #include "support/block.hpp"
@@ -274,6 +276,25 @@ TEST_CASE("steps end at the knots of loads and prescribed motions, and a body ma
     CHECK(loads.empty());
     CHECK(largest_strain(problem) < 1e-8);  // analytic: zero; the largest was 5e-3
   }
+}
+
+TEST_CASE("a peak that is narrower than the smallest increment is not passed by") {
+  scarp::SerialExecutor serial;
+  auto problem = SoftBlock::make({}, serial);
+  SoftBlock::Grid const& grid = problem.discretisation();
+  scarp::Constraints constraints(grid.mesh());
+  scarp::TimeFunction const course({{0.0, 0.0}, {0.5, 0.0}, {0.50004, 1.0}, {0.50008, 0.0}});
+  for (int const node : scarp::boundary_nodes(grid.mesh(), "bottom")) constraints.fix(node);
+  for (int const node : scarp::boundary_nodes(grid.mesh(), "top")) constraints.move(node, 1, 1e-3, course);
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 1.0));
+  SoftBlock::Problem pulled(grid, {Softening{}, sites}, std::move(constraints), {}, serial);
+  auto witness = samples::watch(pulled);
+  scarp::LoadStepping const steps{.first = 0.3, .smallest = 1e-4, .max_displacement_gradient = 0.1};
+  REQUIRE(steps.run(scarp::QuasiNewton<>{}, pulled, 0.0, 1.0, witness).verdict == Verdict{});
+  std::vector<double> loads;
+  for (auto const& report : witness.reports) loads.push_back(report.load);
+  for (double const knot : {0.5, 0.50004, 0.50008}) CHECK(std::ranges::count(loads, knot) == 1);
 }
 
 TEST_CASE("a run that goes on from a saved state is unloaded with the scale of forces that it had") {

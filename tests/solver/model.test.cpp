@@ -100,6 +100,19 @@ TEST_CASE("names that the mesh does not have, and regions without material, are 
   CHECK(samples::message_of([&] { scarp::Analysis{model}; }) == samples::Naming{"there is no region 'clay'"});
 }
 
+TEST_CASE("a call that is rejected changes nothing of the model") {
+  auto model = column();
+  model.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, 0.25));
+  scarp::SerialExecutor serial;
+  auto const prescribed = model.problem(serial).constraints().prescribed_dofs();
+  auto const loads = model.dead_loads();
+  CHECK_REFUSED(model.move({"top"}, 0, 0.01), "prescribed twice");  // at the corners of left and right alone
+  CHECK_REFUSED(model.move({"top", "roof"}, 1, 0.01), "no boundary 'roof'");
+  CHECK(model.problem(serial).constraints().prescribed_dofs() == prescribed);
+  CHECK_REFUSED(model.traction({"top", "roof"}, scarp::Vector<2>(0.0, 1e3)), "no boundary 'roof'");
+  CHECK(model.dead_loads() == loads);
+}
+
 TEST_CASE("an observer that throws leaves the analysis where its last step is") {
   auto model = column();
   model.move({"top"}, 1, -0.01, scarp::TimeFunction::ramp(1.0, 2.0));

@@ -81,7 +81,7 @@ TEST_CASE("a block whose loads balance each other to round-off has no residual o
   loads(2 * top[0]) = 0.1;
   loads(2 * top[1]) = 0.2;
   loads(2 * top[2]) = -0.3;  // 0.1 + 0.2 - 0.3 is not zero
-  CHECK(parts.largest(1e-3 * Eigen::VectorXd::Ones(problem.dof_count()), loads) == 0.0);
+  CHECK(parts.largest(1e-3 * Eigen::VectorXd::Ones(problem.dof_count()), loads, 0.0) == 0.0);
 }
 
 TEST_CASE("nine hundredths of a light block that nothing carries are no equilibrium, however heavy the ground") {
@@ -97,6 +97,27 @@ TEST_CASE("nine hundredths of a light block that nothing carries are no equilibr
   // Analytic: nodes that the block has of its own bear two thirds of it (one row of crossed triangles).
   CHECK(value_of(parts, "footing") == samples::Approx(0.09 * 1.5));
   CHECK(problem.residual(unbalanced) == value_of(parts, "footing"));
+}
+
+TEST_CASE("a block whose loads pass through zero is compared with those that it had") {
+  scarp::SerialExecutor serial;
+  auto const weighed = ground_with_block(samples::elastic_soil(), serial);
+  auto const& grid = weighed.discretisation();
+  scarp::LoadHistory loads;
+  Eigen::VectorXd const weight = weighed.loads().at(1.0) - weighed.loads().at(0.0);
+  loads.add(weight, scarp::TimeFunction({{0.0, 0.0}, {1.0, 1.0}, {1.3, 1.0}, {1.4, -1.0}}));
+  std::vector<scarp::Site<2>> sites;
+  for (int point = 0; point < grid.point_count(); ++point) sites.push_back(grid.site(point, 5.0));
+  Problem problem(grid, {samples::elastic_soil(), sites}, weighed.constraints(), loads, serial);
+  auto const unbalanced = unsupported(problem, 0.09);
+  problem.set_load(1.0);
+  double const at_peak = value_of(problem.residuals(unbalanced), "footing");
+  problem.set_load(0.5);  // no larger loads were known before
+  CHECK(value_of(problem.residuals(unbalanced), "footing") == samples::Approx(2.0 * at_peak));
+  problem.set_load(1.35);
+  REQUIRE(problem.loads().at(1.35).norm() > 0.0);
+  REQUIRE(problem.loads().at(1.35).norm() < 1e-12 * weight.norm());
+  CHECK(value_of(problem.residuals(unbalanced), "footing") == samples::Approx(10.0 * at_peak));
 }
 
 TEST_CASE("forces that turn a block without pushing it count as well") {

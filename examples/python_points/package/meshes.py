@@ -376,6 +376,10 @@ class Mesh:
         if mesh.point_sets:
             notes.append(f"sets of points are left out ({', '.join(mesh.point_sets)}): boundaries are of facets, name them by name_boundary")
         used, renumbered = np.unique(np.concatenate(elements), return_inverse=True)
+        spans = np.ptp(np.asarray(mesh.points, dtype=float)[used], axis=0)
+        if (spans[dims[kind]:] > 1e-9 * spans.max()).any():
+            raise ValueError(f"the nodes of {kind} elements have z from {mesh.points[used, 2].min()} to {mesh.points[used, 2].max()} (a plane mesh has one z): "
+                             "turn it into the xy plane")
         new = np.full(len(mesh.points), -1)
         new[used] = np.arange(len(used))
         return cls(element, np.ascontiguousarray(mesh.points[used, :dims[kind]], dtype=float),

@@ -26,7 +26,17 @@ def _knots(amplitude: Optional[Amplitude]) -> Optional[List[Tuple[float, float]]
 
 
 def _water_boundaries(given: Optional[Mapping[str, Any]]) -> Dict[str, Any]:
-    return {side: (float(value[0]), _knots(value[1])) if isinstance(value, tuple) else float(value) for side, value in (given or {}).items()}
+    def boundary(side: str, value: Any) -> Any:
+        if isinstance(value, (int, float, np.number)):
+            return float(value)
+        try:
+            size, amplitude = value
+            return float(size), _knots(amplitude)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"water at '{side}' is given as {value!r} (a number, or a pair of it and its amplitude, a list of (load factor, value), is "
+                             "expected): correct it") from error
+
+    return {side: boundary(side, value) for side, value in (given or {}).items()}
 
 
 class Model:
@@ -66,6 +76,7 @@ class Model:
         if not isinstance(mesh, Mesh):
             raise TypeError(f"the mesh is {type(mesh).__name__} (a scarp.Mesh is expected): make one by scarp.read_gmsh, scarp.box_mesh or scarp.Mesh")
         mesh = copy.deepcopy(mesh)  # what becomes of the caller's is not of this model
+        mesh.boundaries = {name: np.asarray(facets) for name, facets in mesh.boundaries.items()}
         for array in (mesh.nodes, mesh.elements, mesh.element_region, *mesh.boundaries.values()):
             array.setflags(write=False)
         self.mesh = mesh
@@ -102,7 +113,7 @@ class Model:
             self._do("fix", _names(sides), one)
 
     def move(self, sides: Sides, axis: int, rate: float, amplitude: Optional[Amplitude] = None) -> None:
-        """Moves boundaries along an axis by `rate` [m] times the amplitude."""
+        """Moves boundaries along an axis by `rate` [m] times the growth of the amplitude since the load factor 0."""
         self._do("move", _names(sides), axis, float(rate), _knots(amplitude))
 
     def gravity(self, unit_weight: float, region: Optional[str] = None) -> None:
@@ -111,7 +122,7 @@ class Model:
 
     def traction(self, sides: Sides, force: Sequence[float], amplitude: Optional[Amplitude] = None) -> None:
         """Force per area [Pa], shape (dim,), on boundaries of the initial mesh."""
-        self._do("traction", _names(sides), np.asarray(force, dtype=float), _knots(amplitude))
+        self._do("traction", _names(sides), np.array(force, dtype=float), _knots(amplitude))
 
     def surcharge(self, sides: Sides, pressure: float, amplitude: Optional[Amplitude] = None) -> None:
         """Vertical pressure [Pa], downwards, on boundaries of the initial mesh."""
@@ -219,7 +230,10 @@ class Model:
 
     def _require_stress_kept(self, material: Any, region: str) -> None:
         """A strain of zero is to change no stress. ValueError"""
-        position = self.positions(region)[0]
+        positions = self.positions(region)
+        if not len(positions):
+            raise ValueError(f"region '{region}' has no elements (a material is for some): leave it out")
+        position = positions[0]
         level = float(np.asarray(self.mesh.nodes)[:, -1].max()) if self._level is None else self._level
         begin = material.start(position, max(level - float(position[-1]), 0.0))
         if not isinstance(begin, tuple) or len(begin) not in (2, 3):
@@ -246,7 +260,7 @@ def model_of(made: Tuple[Any, ...], calls: Sequence[Tuple[str, Tuple[Any, ...]]]
     """A model made anew: its mesh, and what was called."""
     model = Model(*made)
     for name, values in calls:
-        if name in ("material", "geostatic"):
+        if name in ("material", "geostatic", "set_surface_level"):
             getattr(model, name)(*values)
         else:
             model._do(name, *values)

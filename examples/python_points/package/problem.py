@@ -138,8 +138,8 @@ class Analysis:
             "tolerance": None if tolerance is None else float(tolerance), "max_iterations": max_iterations, "first": float(first), "smallest": float(smallest),
             "largest": float(largest), "max_displacement_gradient": float(max_displacement_gradient), "tangent_floor": float(tangent_floor), "threads": threads}
         self._recipe = (model._made, tuple(model._calls))  # what later calls change in the model is not of this analysis
-        model._has_analysis = True
         self._analysis = (_points.Analysis if model.dim == 2 else _points.AnalysisInSpace)(model._model, *self._settings.values())
+        model._has_analysis = True
         self._warn_of_short_lengths()
 
     def __repr__(self) -> str:
@@ -313,20 +313,25 @@ class Analysis:
         """Writes the deformed mesh and its fields by meshio, in the format of the file's name, such as .vtu."""
         self.to_meshio().write(os.fspath(file))
 
-    def _of_elements(self, values: npt.ArrayLike) -> Floats:
+    def _of_elements(self, values: npt.ArrayLike, at: Optional[str]) -> Floats:
         """Numbers of the elements, from those of elements, points or nodes."""
         shown = np.asarray(values, dtype=float)
-        elements, points, nodes = len(self.mesh.elements), len(self.volumes), len(self.mesh.nodes)
-        if shown.ndim != 1 or len(shown) not in (elements, points, nodes):
-            raise ValueError(f"values have the shape {shown.shape} (a number for each of {elements} elements, {points} points or {nodes} nodes is expected): "
-                             "take one component")
-        if len(shown) == elements:
+        sizes = {"elements": len(self.mesh.elements), "points": len(self.volumes), "nodes": len(self.mesh.nodes)}
+        places = [name for name, size in sizes.items() if shown.shape == (size,) and at in (None, name)]
+        if not places:
+            wanted = " or ".join(f"{size} {name}" for name, size in sizes.items() if at in (None, name)) or "elements, points or nodes"
+            raise ValueError(f"values have the shape {shown.shape} (a number for each of {wanted} is expected): take one component")
+        if "nodes" in places and len(places) > 1:
+            raise ValueError(f"values have the shape {shown.shape} (the mesh has as many {' and '.join(places)}): say which, at=\"{places[0]}\" or at=\"nodes\"")
+        if places[0] == "elements":
             return shown
-        means: Floats = self.at_elements(shown) if len(shown) == points else shown[self.mesh.corners].mean(axis=1)
+        means: Floats = self.at_elements(shown) if places[0] == "points" else shown[self.mesh.corners].mean(axis=1)
         return means
 
-    def plot(self, values: Optional[npt.ArrayLike] = None, label: str = "", axes: Any = None) -> Any:
+    def plot(self, values: Optional[npt.ArrayLike] = None, label: str = "", axes: Any = None, at: Optional[str] = None) -> Any:
         """Draws a plane problem: the deformed mesh, coloured by numbers of the elements, points or nodes, by default shear strain.
+
+        `at` says of which, "elements", "points" or "nodes", where a mesh has as many of two.
 
         Returns
         -------
@@ -336,7 +341,7 @@ class Analysis:
             raise ValueError("plot draws plane problems (this one is in space): write a file for ParaView, analysis.write(\"ground.vtu\")")
         from matplotlib.collections import PolyCollection
 
-        shown = self._of_elements(self.shear_strains() if values is None else values)
+        shown = self._of_elements(self.shear_strains(), "points") if values is None else self._of_elements(values, at)
         axes = plane_axes(axes, 8.0, 4.0)
         filled = PolyCollection(self.positions[self.mesh.corners], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
         axes.add_collection(filled)

@@ -8,12 +8,14 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
 #include "scarp/bvp/attachment.hpp"
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/grid.hpp"
+#include "scarp/bvp/load_history.hpp"
 #include "scarp/core/error.hpp"
 #include "scarp/io/state_bits.hpp"
 
@@ -40,8 +42,8 @@ struct FieldTimeError {
 /// factor; next_knot(load): first load factor beyond one where the field's own courses may turn; name(): of its
 /// residual; residual(unbalanced): imbalance of its own equations, relative to its own measure, shape (extra_dofs);
 /// describe(number): a degree of freedom in words; nodal_fields() and ground_force(), what it does to the mesh [N],
-/// shape (dof_count of the mesh): committed; time_error(), where it has one: `FieldTimeError` of the step whose forces were
-/// requested last.
+/// shape (dof_count of the mesh): committed; time_error(), where it has one: `FieldTimeError` of the step whose
+/// forces were requested last; grid(), where it has one: that it was made of, which must be the problem's.
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -73,10 +75,13 @@ class AttachedField : public Attached<Dim> {
   virtual std::string describe(int number) const = 0;
   virtual std::vector<NodalField> nodal_fields() const = 0;
   virtual Eigen::VectorXd ground_force() const = 0;
+  virtual Grid<Dim> const* grid() const = 0;  ///< that it was made of; null for what names none
 
   /// first: its first degree of freedom
-  /// \throws InputError for constraints of its degrees of freedom
-  void require_free(Constraints const& constraints, int first) const {
+  /// \throws InputError for constraints and loads of its degrees of freedom
+  void require_free(Constraints const& constraints, LoadHistory const& loads, int first) const {
+    if (loads.act_from(first))
+      reject("a load acts on a degree of freedom of {} (the field knows what flows into it): give it there", name());
     for (int number = 0; number < this->extra_dofs(); ++number) {
       if (constraints.is_prescribed(first + number))
         reject("{} is prescribed by a constraint (the field knows its own boundaries): give it there",
@@ -107,6 +112,10 @@ class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
   std::string describe(int number) const override { return part_.describe(number); }
   std::vector<NodalField> nodal_fields() const override { return part_.nodal_fields(); }
   Eigen::VectorXd ground_force() const override { return part_.ground_force(); }
+  Grid<Dim> const* grid() const override {
+    if constexpr (requires { part_.grid(); }) return &part_.grid();
+    return nullptr;
+  }
 };
 
 /// What is attached to a mesh: at most one body or load, and at most one field.
@@ -127,12 +136,18 @@ struct Attachments {
     return field ? field->residual(unbalanced.tail(field->extra_dofs())) : 0.0;
   }
 
-  /// \throws InputError for another thickness than the mesh's, and constraints of a field's degrees of freedom
-  void require_fit(Grid<Dim> const& grid, Constraints const& constraints) const {
+  /// \throws InputError for another thickness than the mesh's, a field of another grid, and constraints and loads of
+  /// its degrees of freedom
+  void require_fit(Grid<Dim> const& grid, Constraints const& constraints, LoadHistory const& loads) const {
     if (part) require_thickness(grid, part->thickness());
     if (!field) return;
     require_thickness(grid, field->thickness());
-    field->require_free(constraints, grid.dof_count() + part_dofs());
+    auto const* const own = field->grid();
+    if (own && (typeid(*own) != typeid(grid) || own->nodes() != grid.nodes()))
+      reject(
+          "the field is of other elements or another mesh than the problem ({} and {} nodes): make it of the same grid",
+          own->node_count(), grid.node_count());
+    field->require_free(constraints, loads, grid.dof_count() + part_dofs());
   }
   Verdict add_forces(std::vector<Vector<Dim>> const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) {
     Verdict const of_part = part ? part->add_forces(nodes, increment, forces) : Verdict{};

@@ -90,7 +90,7 @@ class Constraints {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(dof_count());
     for (int const dof : prescribed_dofs()) {
       auto const& amplitude = motions_[detail::index(dof)]->amplitude;
-      all(dof) = rate(dof) * (amplitude == TimeFunction{} ? to - from : amplitude(to) - amplitude(from));
+      all(dof) = rate(dof) * (amplitude(to) - amplitude(from));
     }
     return all;
   }

@@ -19,7 +19,8 @@
 namespace scarp {
 
 namespace detail {
-/// \throws InputError for facets that are none, or one that is there twice, whatever the order of its nodes
+/// \throws InputError for facets that are none, negative nodes, or one that is there twice, whatever the order of its
+/// nodes
 template <class Facet>
 void require_facets(std::string_view what, std::vector<Facet> facets) {
   if (facets.empty()) reject("{} has no facets (nothing can touch or load it): name a boundary with facets", what);
@@ -29,6 +30,18 @@ void require_facets(std::string_view what, std::vector<Facet> facets) {
   if (twice != facets.end()) {
     reject("{} has the facet of the nodes ({}) twice (it would count twice): name each facet once", what,
            listed(*twice));
+  }
+  if (facets.front().front() < 0)
+    reject("{} has a facet of node {} (nodes count from 0): give the numbers of the mesh", what,
+           facets.front().front());
+}
+/// \throws InputError for facets of nodes that a mesh of so many has not
+template <class Facet>
+void require_nodes(std::string_view what, std::vector<Facet> const& facets, std::size_t nodes) {
+  for (auto const& facet : facets) {
+    int const last = *std::max_element(facet.begin(), facet.end());
+    if (detail::index(last) >= nodes)
+      reject("{} has a facet of node {} (the mesh has {}): give the numbers of this mesh", what, last, nodes);
   }
 }
 }  // namespace detail

@@ -42,8 +42,10 @@ class FollowingPressure {
   static int extra_dofs() { return 0; }
   double thickness() const { return thickness_; }  ///< [m]
 
+  /// \throws InputError for facets of nodes that the mesh has not
   Verdict add_forces(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment,
                      Eigen::VectorXd& forces) const {
+    detail::require_nodes("a following pressure", facets_, nodes.size());
     for (auto const& facet : facets_) {
       for_each_pair(facet, [&](int at, int of, double per_length) {
         Vector<2> const place = nodes[detail::index(of)] + increment.segment<2>(2 * of);

@@ -51,10 +51,11 @@ class Interface {
   using Memory = ContactMemory<2, double>;  ///< shear [Pa] and further numbers of the law at one point
 
   /// nodes [m]: committed places. Laws with bonds begin intact at every point.
-  /// \throws InputError for a body whose degrees of freedom do not follow those of the nodes, stiffnesses or a friction
-  /// below 0, and a law without normal stiffness
+  /// \throws InputError for facets of nodes that are not there, a body whose degrees of freedom do not follow those of
+  /// the nodes, stiffnesses or a friction below 0, and a law without normal stiffness
   Interface(Law law, Body body, FacetChain ground, std::vector<Vector<2>> const& nodes)
       : law_(std::move(law)), body_(std::move(body)), ground_(std::move(ground)) {
+    detail::require_nodes("the ground of an interface", ground_.facets(), nodes.size());
     constexpr double slight = 1e-6;  // overlap [m], for laws that have no stiffness in mere touch
     auto const springs = law_.stiffness(slight, 0.0);
     require_positive("normal stiffness of an interface [Pa/m]", springs.normal);

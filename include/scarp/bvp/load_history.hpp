@@ -108,6 +108,11 @@ class LoadHistory {
     return sum;
   }
 
+  /// Whether a pattern has a force from a degree of freedom on.
+  bool act_from(Eigen::Index first) const {
+    return std::ranges::any_of(parts_, [&](auto const& part) { return !part.first.tail(size() - first).isZero(0.0); });
+  }
+
   /// Load factor of the first knot of any amplitude beyond one; infinite beyond the last.
   double next_knot(double load) const {
     double next = std::numeric_limits<double>::infinity();

@@ -69,7 +69,7 @@ class PoreWater {
   /// \throws InputError for an unknown region, a flow outside of its range and a void ratio that is not positive
   void region(std::string_view name, Flow const& flow, double void_ratio) { flow_.set(field_, name, flow, void_ratio); }
   /// Takes the water out of a region, such as a footing.
-  /// \throws InputError for an unknown region
+  /// \throws InputError for an unknown region, and boundaries there with a pressure or an inflow
   void exclude(std::string_view region) { exclude(field_.elements_of(region)); }
   /// Lets water leave through boundaries against the pressure of water at rest.
   /// \throws InputError for an unknown boundary, and one with another pressure
@@ -81,18 +81,18 @@ class PoreWater {
     for (auto const side : sides) prescribe(field_.corners_on(side), pressure, amplitude);
   }
   /// Lets water in through boundaries, or out: volume per initial area and time [m/s], times an amplitude.
-  /// \throws InputError for an unknown boundary and a rate that is not finite
+  /// \throws InputError for an unknown boundary, one of ground without water, and a rate that is not finite
   void inflow(Sides sides, double rate, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
     require_finite("rate of inflow", rate);
-    for (auto const side : sides) boundaries_.let_in(rate * field_.areas(side), amplitude);
+    for (auto const side : sides) boundaries_.let_in(rate * field_.areas(side), amplitude, describe_corner());
   }
 
-  double time() const { return then_; }  ///< of the committed state [s]
+  GridType const& grid() const { return field_.grid(); }  ///< Mesh and elements, committed.
+  double time() const { return then_; }                   ///< of the committed state [s]
   /// Excess pressures [Pa] at all nodes, committed; in the middle of a side the mean of its corners.
   std::vector<double> pressures() const { return field_.at_nodes(pressure_); }
   std::vector<double> const& void_ratios() const { return flow_.void_ratios(); }  ///< of the points, committed
-  /// Committed volume of vapour [m3].
-  double vapour() const { return vapour_ ? vapour_->volumes(view(pressure_)).sum() : 0.0; }
+  double vapour() const { return vapour_ ? vapour_->volumes(view(pressure_)).sum() : 0.0; }  ///< committed volume [m3]
   /// Volume [m3] that has left through boundaries of given pressure, committed.
   double expelled() const { return -boundaries_.sum_of_given(left_); }
   // What an attachment needs.
@@ -116,7 +116,7 @@ class PoreWater {
     return {trial_.time_error, settings_.largest_time_error, view(pressure_).cwiseAbs().maxCoeff()};
   }
   std::string name() const { return "water"; }
-  /// Volumes that are not balanced, over those displaced in the step by strain, flow, vapour and the changes of
+  /// Volumes that are not balanced, over those displaced in the step by strain, flow, inflow, vapour and the changes of
   /// pressure over the shear modulus, or a thousandth of the most of any step before, Euclidean norms.
   double residual(Values const& unbalanced) const {
     double const volume = unbalanced.norm() / scale_;
@@ -159,7 +159,10 @@ class PoreWater {
   void evaluate(Values const& increment);
   void prescribe(std::vector<int> const& corners, double pressure,
                  TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
-    boundaries_.prescribe(corners, pressure, amplitude, [&](int k) { return field_.describe(k); });
+    boundaries_.prescribe(corners, pressure, amplitude, describe_corner());
+  }
+  auto describe_corner() const {
+    return [this](int corner) { return field_.describe(corner); };
   }
   void exclude(std::vector<int> const& elements);
 
@@ -186,7 +189,8 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
       boundaries_(field_.count()),
       scale_(field_.over_mean_size(settings.shear_modulus)),
       pressure_(detail::index(field_.count()), 0.0),
-      left_(pressure_.size(), 0.0) {
+      left_(pressure_.size(), 0.0),
+      then_(settings_.beginning()) {
   if (!settings.at_rest) return;
   auto const dry = detail::above(field_, settings.at_rest->level);
   prescribe(dry.corners, 0.0);
@@ -195,9 +199,7 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
 
 template <class GridType, HydraulicProvider Flow>
 void PoreWater<GridType, Flow>::exclude(std::vector<int> const& elements) {
-  auto bare = field_.exclude(elements);
-  std::erase_if(bare, [&](int corner) { return boundaries_.is_given(detail::index(corner)); });
-  prescribe(bare, 0.0);
+  boundaries_.take_out(field_.exclude(elements), describe_corner());
   if (settings_.at_rest) vapour_.emplace(field_, *settings_.at_rest, vapour_modulus);
 }
 
@@ -207,7 +209,7 @@ void PoreWater<GridType, Flow>::at(double load) {
   if (!(end >= then_))
     reject(
         "the clock of the pore water goes from {} s to {} s at the load factor {} (time does not go back): order its "
-        "times, or begin at 0 s",
+        "times",
         then_, end, load);
   if (boundaries_.lacks_outlet())
     reject(
@@ -247,7 +249,8 @@ void PoreWater<GridType, Flow>::evaluate(Values const& increment) {
   Values const grown = step_.volumes.cwiseProduct(trial_.growth);
   trial_.left = view(left_) + field_.shapes().transpose() * grown + flown +
                 step_.change * (trial_.pressure - view(pressure_)) - step_.inflow;
-  trial_.displaced = (field_.shapes().transpose() * step_.volumes.cwiseProduct(displaced)).norm() + flown.norm();
+  trial_.displaced =
+      (field_.shapes().transpose() * step_.volumes.cwiseProduct(displaced)).norm() + flown.norm() + step_.inflow.norm();
   if (!vapour_) return;
   Values const vapour = vapour_->volumes(trial_.pressure) - vapour_->volumes(view(pressure_));
   trial_.left -= vapour;
@@ -259,14 +262,11 @@ void PoreWater<GridType, Flow>::add_stiffness(std::vector<Eigen::Triplet<double>
   auto const& grid = field_.grid();
   Values const move = trial_.increment.head(grid.dof_count());
   int const first = static_cast<int>(trial_.increment.size()) - extra_dofs();
-  std::vector<int> number(pressure_.size(), -1);
-  for (std::size_t k = 0; k < boundaries_.unknowns().size(); ++k)
-    number[detail::index(boundaries_.unknowns()[k])] = first + static_cast<int>(k);
   auto const add = [&](Matrix const& part, double factor, auto const& row_of, auto const& column_of) {
     detail::add_block(part, factor, row_of, column_of, entries);
   };
   auto const node = [](int dof) { return dof; };
-  auto const water = [&](int corner) { return number[detail::index(corner)]; };
+  auto const water = [&](int corner) { return boundaries_.is_given(corner) ? -1 : first + boundaries_.number(corner); };
   if (GridType::follows_motion) {
     std::vector<VoigtTangent<dim>> const none(trial_.stresses.size(), VoigtTangent<dim>::Zero());
     add(grid.stiffness(move, trial_.stresses, none), 1.0, node, node);

@@ -32,7 +32,8 @@ struct PoreWaterSettings {
   /// Of the ground, in size [Pa]: it stabilises what an element cannot show, see PoreWater, and weighs the unknowns.
   double shear_modulus = 0.0;
   double void_ratio = 0.7;               ///< at the start, of regions without their own
-  TimeFunction clock{};                  ///< time [s] over the load factor, not falling; the initial state is at 0 s
+  TimeFunction clock{};                  ///< time [s] over the load factor, not falling
+  std::optional<double> begin{};         ///< time of the initial state [s]; without it the first one of the clock
   std::optional<WaterAtRest> at_rest{};  ///< without it all ground has water, of any pressure
   /// Largest error of one time step in the pressure of any corner [Pa], estimated as
   /// \f$ \frac{\Delta t}{2} |\dot u - \dot u_{before}| \f$: sizes the steps of `LoadStepping`. The largest counts and
@@ -46,7 +47,7 @@ struct PoreWaterSettings {
     require_positive("shear modulus of the ground with pore water", shear_modulus);
     if (largest_time_error) require_positive("largest time error of the pore water", *largest_time_error);
     if (at_rest) at_rest->validate();
-    double last = 0.0;
+    double last = begin.value_or(0.0);
     double knot = clock.next_knot(-std::numeric_limits<double>::infinity());
     for (; std::isfinite(knot); knot = clock.next_knot(knot)) {
       if (!(clock(knot) >= last))
@@ -56,6 +57,11 @@ struct PoreWaterSettings {
             clock(knot), knot, last);
       last = clock(knot);
     }
+  }
+  /// Time of the initial state [s].
+  double beginning() const {
+    double const first = clock.next_knot(-std::numeric_limits<double>::infinity());
+    return begin.value_or(std::isfinite(first) ? clock(first) : 0.0);
   }
 };
 

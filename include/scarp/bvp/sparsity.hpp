@@ -34,9 +34,6 @@ class Sparsity {
     }
   }
 
-  /// The global matrix with all its entries in place, zero.
-  Eigen::SparseMatrix<double> const& pattern() const { return pattern_; }
-
   /// For each element its matrix's entries, column by column, as positions in the values of the global matrix.
   std::vector<int> const& addresses() const { return addresses_; }
 

@@ -98,10 +98,12 @@ class RigidFooting {
 class MeshedFooting {
  public:
   /// base: facets of the standing body with the body on their left; breaks [m]: places of the ground's nodes along x
-  /// \throws InputError for an empty base, an upright facet of it, or a thickness that is not positive
+  /// \throws InputError for an empty base, facets of nodes that are not there or upright, or a thickness that is not
+  /// positive
   MeshedFooting(FacetChain base, std::vector<double> const& breaks, std::vector<Vector<2>> const& nodes,
                 double thickness)
       : base_(std::move(base)), thickness_(require_positive("thickness", thickness)) {
+    detail::require_nodes("the base of a footing", base_.facets(), nodes.size());
     for (int f = 0; f < detail::count(base_.facets()); ++f) {
       Vector<2> const from = base_.place({f, 0.0}, nodes);
       Vector<2> const to = base_.place({f, 1.0}, nodes);

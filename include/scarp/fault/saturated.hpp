@@ -27,20 +27,32 @@ struct RuptureTimes {
 
   /// Load factor at the end of the drainage, in which it grows by a thousandth of the throw [m].
   double end(double throw_to) const { return drainage > 0.0 ? 1.001 * throw_to : throw_to; }
-  /// Time [s] over the load factor, the throw [m]. start: load factor of the ground at rest; before: time [s] that it
-  /// has to drain there, and again while a structure is placed
+  /// Time [s] since the fault began to move, over the load factor, the throw [m]. start: load factor of the ground at
+  /// rest, below 0 where a structure is placed; before: time [s] that the water has to drain then
   TimeFunction clock(double start, double throw_to, double before) const {
-    std::vector<std::pair<double, double>> knots{{start, before}};
-    if (start < 0.0) knots.emplace_back(0.0, 2.0 * before);
-    double const ruptured = knots.back().second + rupture;
-    knots.emplace_back(throw_to, ruptured);
-    double const first = std::min(rupture / 10.0, drainage);
-    double const steps = drainage > 0.0 ? std::floor(per_decade * std::log10(drainage / first)) + 1.0 : 0.0;
-    for (double step = 1.0; step <= steps; step += 1.0) {
-      double const passed = drainage * std::pow(first / drainage, steps > 1.0 ? (steps - step) / (steps - 1.0) : 0.0);
-      knots.emplace_back(throw_to + step / steps * (end(throw_to) - throw_to), ruptured + passed);
-    }
+    std::vector<std::pair<double, double>> knots{{0.0, 0.0}, {throw_to, rupture}};
+    if (start < 0.0) knots.insert(knots.begin(), {start, -before});
+    auto const times = of_drainage();
+    double const share = (end(throw_to) - throw_to) / static_cast<double>(std::max<std::size_t>(times.size(), 1));
+    for (std::size_t k = 0; k < times.size(); ++k)
+      knots.emplace_back(throw_to + static_cast<double>(k + 1) * share, rupture + times[k]);
     return TimeFunction(std::move(knots));
+  }
+
+ private:
+  /// Times after the throw [s] at which steps end, increasing: a minute is among them.
+  std::vector<double> of_drainage() const {
+    std::vector<double> times;
+    if (drainage == 0.0) return times;
+    double const first = std::min(rupture / 10.0, drainage);
+    double const steps = std::floor(per_decade * std::log10(drainage / first));
+    for (double step = 0.0; step < steps; step += 1.0)
+      times.push_back(drainage * std::pow(first / drainage, (steps - step) / steps));
+    times.push_back(drainage);
+    constexpr double minute = 60.0;
+    auto const next = std::ranges::lower_bound(times, minute);
+    if (next != times.end() && *next != minute) times.insert(next, minute);
+    return times;
   }
 };
 
@@ -77,6 +89,7 @@ struct Saturated : Structure {
         {.shear_modulus = shear_modulus,
          .void_ratio = void_ratio,
          .clock = detail::validated(times).clock(this->start(), throw_to, before),
+         .begin = this->start() < 0.0 ? -2.0 * before : -before,
          .at_rest = WaterAtRest{.level = surface - water_table, .unit_weight = pore_water().unit_weight},
          .largest_time_error = largest_time_error});
     for (auto const& region : grid.regions())

@@ -56,6 +56,10 @@ void validate_sizes(Mesh<Element> const& mesh) {
     reject("the mesh has {} elements but {} region numbers (each element needs one): fill element_region",
            mesh.elements.size(), mesh.element_region.size());
   }
+  for (auto name = mesh.regions.begin(); name != mesh.regions.end(); ++name) {
+    if (std::find(mesh.regions.begin(), name, *name) != name)
+      reject("the mesh has two regions '{}' (materials are found by name): give each a name of its own", *name);
+  }
   for (int e = 0; e < count(mesh.elements); ++e) {
     int const region = mesh.element_region[index(e)];
     if (region < 0 || region >= count(mesh.regions)) {

@@ -99,6 +99,8 @@ class FieldSeries : public NeverStops {
   FieldSeries(std::filesystem::path folder, LoadSchedule const& schedule)
       : folder_(std::move(folder)), schedule_(detail::validated(schedule)), series_(folder_, "fields") {}
 
+  double last() const { return schedule_.last; }  ///< Load that was written last; -1 before the first.
+
   /// \throws InputError for a quantity that has the name of a field
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {

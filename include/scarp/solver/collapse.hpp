@@ -157,11 +157,11 @@ SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction cons
   SafetyFactor found;
   auto const stands = [&](double factor) {
     auto const model = make_model(factor);
-    if (double const knot = model.external_loads().next_knot(settings.load); std::isfinite(knot)) {
+    Analysis analysis(model, settings.analysis);
+    if (double const knot = analysis.problem().next_knot(settings.load); std::isfinite(knot)) {
       reject("a factor of safety is requested at the load factor {} (loads change at {}): give it a larger load factor",
              settings.load, knot);
     }
-    Analysis analysis(model, settings.analysis);
     Collapse const end = find_collapse(analysis, settings.load, settings.collapse);
     if (!end.stands()) found.why = fmt::format("factor {:.4g}: {}", factor, end.why);
     if (end.stands()) found.stands = factor;

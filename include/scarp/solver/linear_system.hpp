@@ -58,6 +58,12 @@ class LinearSystem {
 
   /// Number of equations.
   Eigen::Index free_count() const { return static_cast<Eigen::Index>(free_dofs_.size()); }
+  /// \throws InputError for another number of free degrees of freedom, that of a saved state
+  void require_free(std::size_t saved) const {
+    if (saved != free_dofs_.size())
+      reject("the saved state has {} free degrees of freedom (the problem has {}): resume it with the same constraints",
+             saved, free_dofs_.size());
+  }
   /// Entries of the free degrees of freedom, shape (free_count).
   Eigen::VectorXd gather(Eigen::VectorXd const& full) const {
     Eigen::VectorXd part(free_count());

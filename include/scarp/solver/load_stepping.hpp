@@ -137,7 +137,9 @@ struct LoadStepping {
     validate();
     require_finite("load factor at the start", from);
     require_finite("load factor at the end", to);
-    if (to < from) reject("the load factor is to go from {} to {} (it can only grow): exchange the two", from, to);
+    if (to < from)
+      reject("the load factor is to go from {} to {} (it can only grow): let an amplitude fall while it grows", from,
+             to);
     RunState state;
     state.report.load = from;
     state.increment = std::min({first, largest, to - from});
@@ -160,7 +162,8 @@ struct LoadStepping {
   void attempt(Session& session, Problem& problem, double to, RunState& state, Observer& observer) const {
     RunReport& run = state.report;
     double& increment = state.increment;
-    double const goal = std::min(to, next_knot(problem, run.load + smallest));
+    double const round_off = 1e-14 * std::max(1.0, std::abs(run.load));  // knots of two courses are one knot
+    double const goal = std::min(to, next_knot(problem, run.load + round_off));
     double tried = std::min(increment, goal - run.load);
     bool const is_cut = tried < increment;
     StepReport step;

@@ -219,19 +219,20 @@ std::vector<double> Model<Dim>::depths(std::string_view region) const {
 
 template <int Dim>
 void Model<Dim>::move(Sides sides, int axis, double rate, TimeFunction const& amplitude) {
+  Constraints all = constraints_;  // a rejected call changes nothing
   for (auto const side : sides)
-    for (int const node : grid_->boundary_nodes(side)) constraints_.move(node, axis, rate, amplitude);
+    for (int const node : grid_->boundary_nodes(side)) all.move(node, axis, rate, amplitude);
+  constraints_ = std::move(all);
 }
 
 template <int Dim>
 void Model<Dim>::traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude) {
-  for (auto const side : sides) {
-    Eigen::VectorXd const forces = grid_->traction(side, per_area);
-    if (amplitude) {
-      later_.add(forces, *amplitude);
-    } else {
-      tractions_.push_back(forces);
-    }
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(grid_->dof_count());
+  for (auto const side : sides) forces += grid_->traction(side, per_area);
+  if (amplitude) {
+    later_.add(std::move(forces), *amplitude);
+  } else {
+    tractions_.push_back(std::move(forces));
   }
 }
 

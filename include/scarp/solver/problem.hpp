@@ -42,8 +42,7 @@ class SCARP_EXPORT Problem {
         executor_(executor),
         constraints_(std::move(constraints)),
         loads_(std::move(loads)),
-        whole_(detail::WholeResidual::of(constraints_, first_of_field())),
-        regions_(*grid_, constraints_) {
+        residuals_(*grid_, constraints_, first_of_field()) {
     if (points_.size() != grid_->point_count())
       reject("materials are given for {} points (the mesh has {}): make points of all sites", points_.size(),
              grid_->point_count());
@@ -51,7 +50,8 @@ class SCARP_EXPORT Problem {
     if (loads_.size() != dof_count() || constraints_.dof_count() != dof_count())
       reject("loads have {} entries and constraints {} (the problem has {} degrees of freedom): size them alike",
              loads_.size(), constraints_.dof_count(), dof_count());
-    attached_.require_fit(*grid_, constraints_);
+    attached_.require_fit(*grid_, constraints_, loads_);
+    residuals_.learn(loads_);
     set_load(0.0);
   }
   Problem(Problem const&) = delete;  // sessions and stiffnesses refer to it
@@ -93,6 +93,7 @@ class SCARP_EXPORT Problem {
 
   /// Forces are measured against the loads of a load factor; a step of an attached field ends there, or elsewhere.
   void set_load(double load, std::optional<double> field_at = {}) {
+    load_ = load;
     load_now_ = loads_.at(load);
     if (has_field()) attached_.field->at(field_at.value_or(load));
   }
@@ -106,7 +107,7 @@ class SCARP_EXPORT Problem {
   MaterialPoints<Dim>& points() { return points_; }  ///< For callers that exchange states between load steps.
   Constraints const& constraints() const { return constraints_; }  ///< Prescribed displacements [m].
   /// Without a prescribed displacement, increasing; those of a field are not among them.
-  std::vector<int> const& free_dofs() const { return whole_.free_dofs; }
+  std::vector<int> const& free_dofs() const { return residuals_.whole.free_dofs; }
   LoadHistory const& loads() const { return loads_; }     ///< Forces [N] by load factor.
   Executor const& executor() const { return executor_; }  ///< Runs the points' tasks; outlives the problem.
   /// Displacement gradients that the points saw in the last evaluation.
@@ -165,7 +166,8 @@ class SCARP_EXPORT Problem {
     forget();
     Evaluation evaluation;
     add_up(Eigen::VectorXd::Zero(dof_count()), evaluation);
-    whole_.largest_scale = std::max(whole_.largest_scale, whole_.scale(evaluation.unbalanced, load_now_));
+    residuals_.whole.largest_scale =
+        std::max(residuals_.whole.largest_scale, residuals_.whole.scale(evaluation.unbalanced, load_now_));
     return evaluation;
   }
 
@@ -183,8 +185,7 @@ class SCARP_EXPORT Problem {
   }
   /// That of all parts but a field.
   double force_residual(Eigen::VectorXd const& unbalanced) const {
-    return std::max(
-        {whole_.residual(unbalanced, load_now_), regions_.largest(unbalanced, load_now_), residual_beside(unbalanced)});
+    return residuals_.largest(unbalanced, load_now_, load_);
   }
 
   /// Imbalance by parts: "all" is |unbalanced| over free degrees of freedom, over the largest of |reactions|, |loads|
@@ -193,16 +194,14 @@ class SCARP_EXPORT Problem {
   /// by its name, unless it is the only one, as a rigid body, and "attached", each over its own loads (0 without them);
   /// a field has its own name and measure, and is no part of the whole.
   std::vector<PartResidual> residuals(Eigen::VectorXd const& unbalanced) const {
-    std::vector<PartResidual> parts{{"all", whole_.residual(unbalanced, load_now_)}};
-    regions_.list(unbalanced, load_now_, parts);
-    if (has_attachment()) parts.push_back({"attached", residual_beside(unbalanced)});
+    auto parts = residuals_.list(unbalanced, load_now_, load_, has_attachment());
     if (has_field()) parts.push_back({field()->name(), attached_.field_residual(unbalanced)});
     return parts;
   }
 
   /// Imbalance of a body over its own loads, which reactions would hide (0 without loads).
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
-    return detail::residual_beside(unbalanced, load_now_, whole_.free_dofs, first_beside(), first_of_field());
+    return residuals_.beside(unbalanced, load_now_, load_);
   }
 
   /// Whether all materials' tangents are the derivatives of their responses.
@@ -233,7 +232,7 @@ class SCARP_EXPORT Problem {
   static void members(Self& self, Visit&& visit) {
     visit("discretisation", *self.grid_);
     visit("materials", self.points_);
-    visit("largest_scale", self.whole_.largest_scale);
+    visit("largest_scale", self.residuals_.whole.largest_scale);
     detail::Attachments<Dim>::members(self.attached_, visit);
   }
   void after_loading() { forget(); }  ///< The next evaluation computes all gradients anew.
@@ -266,15 +265,16 @@ class SCARP_EXPORT Problem {
   void add_up(Eigen::VectorXd const& increment, Evaluation& evaluation) {
     grid_->internal_force(of_nodes(increment), points_.stresses(), evaluation.unbalanced);
     evaluation.unbalanced.conservativeResizeLike(Eigen::VectorXd::Zero(dof_count()));
-    whole_.carried = 0.0;
-    whole_.carry(evaluation.unbalanced);
+    residuals_.whole.carried = 0.0;
+    residuals_.whole.carry(evaluation.unbalanced);
     Eigen::VectorXd const of_elements = evaluation.unbalanced;
     Verdict const verdict = attached_.add_forces(grid_->positions(), increment, evaluation.unbalanced);
     if (evaluation.verdict.acceptable()) evaluation.verdict = verdict;
-    whole_.carry(evaluation.unbalanced - of_elements);
+    residuals_.whole.carry(evaluation.unbalanced - of_elements);
     evaluation.unbalanced -= load_now_;
     evaluation.residual = residual(evaluation.unbalanced);
-    if (has_attachment() || has_field() || !regions_.empty()) evaluation.parts = residuals(evaluation.unbalanced);
+    if (has_attachment() || has_field() || residuals_.has_regions())
+      evaluation.parts = residuals(evaluation.unbalanced);
     bool const finite = std::isfinite(evaluation.residual) && evaluation.unbalanced.allFinite();
     if (!finite && evaluation.verdict.acceptable()) evaluation.verdict = {Status::failed, Reason::not_finite};
   }
@@ -285,11 +285,11 @@ class SCARP_EXPORT Problem {
   Executor const& executor_;
   Constraints constraints_;
   LoadHistory loads_;
+  double load_ = 0.0;  ///< factor
   Eigen::VectorXd load_now_;
   Eigen::VectorXd seen_;       ///< increment whose gradients the points have; empty after a commit
   Eigen::VectorXd evaluated_;  ///< increment that the points' trial states belong to; empty after a commit
-  detail::WholeResidual whole_;
-  detail::RegionResiduals<Dim> regions_;
+  detail::ForceResiduals<Dim> residuals_;
 };
 
 #ifdef SCARP_PRECOMPILED

@@ -72,8 +72,7 @@ class SCARP_EXPORT QuasiNewtonSession {
 
   /// Readies a step between two load factors from the committed state: tangents, factorisation, present imbalance.
   Verdict begin(double from, double to);
-  /// Adds the condition and the weak degree of freedom that begin() found.
-  void describe(StepReport& report) const { linearised_.describe(report); }
+  void describe(StepReport& report) const { linearised_.describe(report); }  ///< Adds what begin() found of the matrix.
   /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that
   /// step left unbalanced; else a linear solve.
   Eigen::VectorXd predict(double from, double to);
@@ -83,11 +82,14 @@ class SCARP_EXPORT QuasiNewtonSession {
 
   /// Commits an increment in equilibrium; the learned tangents start the next step.
   void accept(Eigen::VectorXd const& increment);
-
   /// State that persists from step to step.
   SCARP_MEMBERS_EXCEPT((settings_, problem_, exact_, tolerance_, repeats_motion_, linearised_, mark_, tangent_seconds_,
                         working_, last_gradients_, last_stresses_, missing_, growth_),
                        first_, provider_, steps_of_provider_, learned_, motion_)
+  /// \throws InputError for a state of another problem
+  void after_loading() const {
+    if (!motion_.motion_.empty()) linearised_.system().require_free(motion_.motion_.size());
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -162,7 +164,8 @@ Eigen::VectorXd QuasiNewtonSession<Rule, Dim>::predict(double from, double to) {
   growth_ = to - from;
   problem_.set_load(to);
   Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
-  if (motion_.motion_.empty() || !(growth_ > 0.0)) {
+  // Beyond ten times the last step the guess would be little else than what was missing then.
+  if (motion_.motion_.empty() || !(growth_ > 0.0) || growth_ > 10.0 * motion_.growth_) {
     Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
     static_cast<void>(linearised_.solve(increment, more_load));  // one that fails is no more than a poor first guess
   } else {  // what is missing is made good, and the last motion was too small by as much
@@ -218,8 +221,7 @@ void QuasiNewtonSession<Rule, Dim>::iterate(Eigen::VectorXd& increment, StepRepo
       return;
     }
     linear_residual = linearised_.system().residual();
-    Eigen::VectorXd const correction = next - increment;
-    increment += correction;
+    increment += next - increment;
   }
 }
 
@@ -233,7 +235,7 @@ void QuasiNewtonSession<Rule, Dim>::accept(Eigen::VectorXd const& increment) {
   motion_ = {{motion.begin(), motion.end()}, growth_};
 }
 
-/// Evaluates all points and adds the cost to the report.
+/// Adds the cost to the report.
 template <class Rule, int Dim>
 Evaluation QuasiNewtonSession<Rule, Dim>::recorded(StepReport& report, Eigen::VectorXd const& increment, bool refine) {
   auto const started = Clock::now();
@@ -245,11 +247,9 @@ Evaluation QuasiNewtonSession<Rule, Dim>::recorded(StepReport& report, Eigen::Ve
   record.material_seconds += std::chrono::duration<double>(ended - started).count();
   record.seconds += std::chrono::duration<double>(ended - mark_).count();
   mark_ = ended;
-  record.verdict = evaluation.verdict;
-  record.worst_point = evaluation.worst_point;
+  record.verdict = report.verdict = evaluation.verdict;
+  record.worst_point = report.worst_point = evaluation.worst_point;
   record.points = evaluation.points;
-  report.verdict = evaluation.verdict;
-  report.worst_point = evaluation.worst_point;
   report.parts = evaluation.parts;
   return evaluation;
 }

@@ -21,7 +21,7 @@ class PoreBoundaries {
  public:
   using Values = Eigen::VectorXd;
 
-  explicit PoreBoundaries(int corners) : given_(index(corners)) { number_unknowns(); }
+  explicit PoreBoundaries(int corners) : given_(index(corners)), is_bare_(given_.size(), 0) { number_unknowns(); }
 
   /// \throws InputError for a corner whose pressure is given already, and differently; describe(corner): it in words
   template <class Describe>
@@ -30,26 +30,52 @@ class PoreBoundaries {
     Course const course{pressure, amplitude};
     for (int const corner : corners) {
       auto& known = given_[index(corner)];
-      if (known && !(*known == course))
+      if (pressure != 0.0) require_water(corner, describe);
+      if (known && !is_bare_[index(corner)] && !(*known == course))
         reject("the pore pressure of {} is given twice (as {} and {} Pa, or with two amplitudes): decide for one",
                describe(corner), known->pressure, pressure);
       known = course;
     }
     number_unknowns();
   }
-  /// rates [m3/s]: of all corners
-  void let_in(Values rates, TimeFunction const& amplitude) { inflows_.emplace_back(std::move(rates), amplitude); }
+  /// rates [m3/s]: of all corners. \throws InputError for a corner that no water is around
+  template <class Describe>
+  void let_in(Values rates, TimeFunction const& amplitude, Describe const& describe) {
+    for (Eigen::Index k = 0; k < rates.size(); ++k)
+      if (rates(k) != 0.0) require_water(static_cast<int>(k), describe);
+    inflows_.emplace_back(std::move(rates), amplitude);
+  }
+  /// Corners that no water is around any more have no pressure.
+  /// \throws InputError for those where a pressure or an inflow is given
+  template <class Describe>
+  void take_out(std::vector<int> const& corners, Describe const& describe) {
+    for (int const corner : corners) {
+      auto const k = index(corner);
+      is_bare_[k] = 1;
+      if (given_[k] && given_[k]->pressure != 0.0) require_water(corner, describe);
+      for (auto const& [rates, amplitude] : inflows_)
+        if (rates(corner) != 0.0) require_water(corner, describe);
+      if (!given_[k]) given_[k] = Course{0.0, TimeFunction::constant(1.0)};
+    }
+    number_unknowns();
+  }
 
   std::vector<int> const& unknowns() const { return unknowns_; }  ///< Corners whose pressure is not given.
-  bool is_given(std::size_t corner) const { return given_[corner].has_value(); }
+  bool is_given(int corner) const { return given_[index(corner)].has_value(); }
+  int number(int corner) const {
+    return number_[index(corner)];
+  }  ///< Among the unknowns, of one whose pressure is not given.
   /// Over the corners whose pressure is given.
   double sum_of_given(std::vector<double> const& values) const {
     double sum = 0.0;
-    for (std::size_t k = 0; k < values.size(); ++k) sum += is_given(k) ? values[k] : 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) sum += given_[k] ? values[k] : 0.0;
     return sum;
   }
   /// Whether water flows through boundaries of a ground whose pressure nothing sets.
-  bool lacks_outlet() const { return !inflows_.empty() && unknowns_.size() == given_.size(); }
+  bool lacks_outlet() const {
+    auto const bare = static_cast<std::size_t>(std::ranges::count(is_bare_, 1));
+    return !inflows_.empty() && unknowns_.size() + bare == given_.size();
+  }
 
   /// Pressures [Pa] of all corners at a load factor, 0 where they are unknown.
   Values pressures(double load) const {
@@ -80,15 +106,27 @@ class PoreBoundaries {
     friend bool operator==(Course const&, Course const&) = default;
   };
 
+  /// \throws InputError for a corner that no element with water has
+  template <class Describe>
+  void require_water(int corner, Describe const& describe) const {
+    if (is_bare_[index(corner)] != 0)
+      reject("a pore pressure or an inflow is given at {} (no water is around it): name boundaries of wet ground only",
+             describe(corner));
+  }
   void number_unknowns() {
     unknowns_.clear();
-    for (std::size_t k = 0; k < given_.size(); ++k)
+    number_.resize(given_.size());
+    for (std::size_t k = 0; k < given_.size(); ++k) {
+      number_[k] = count(unknowns_);
       if (!given_[k]) unknowns_.push_back(static_cast<int>(k));
+    }
   }
 
   std::vector<std::optional<Course>> given_;
+  std::vector<char> is_bare_;  ///< whether no element with water has the corner
   std::vector<std::pair<Values, TimeFunction>> inflows_;
   std::vector<int> unknowns_;
+  std::vector<int> number_;  ///< of each corner among them
 };
 
 }  // namespace scarp::detail

@@ -49,14 +49,16 @@ class PoreFlow {
   }
 
   /// A step from the committed state that takes so long [s]; shear_modulus [Pa]: of the ground
-  /// \throws InputError where time passes in ground that is impermeable everywhere
+  /// \throws InputError where time passes in ground that is impermeable everywhere, and for a flow whose mobility or
+  /// storage is negative or no number
   FlowStep step(Field const& field, double duration, double shear_modulus) const {
     auto const& grid = field.grid();
     typename Field::Triplets flow;
     typename Field::Triplets change;
     bool is_permeable = false;
     field.for_each_cell([&](auto const& cell) {
-      double const passes = duration * flow_in(field, cell.number).mobility(mean_void_ratio(field, cell.number));
+      double const mobility = flow_in(field, cell.number).mobility(mean_void_ratio(field, cell.number));
+      double const passes = duration * require_not_negative("mobility of pore water", mobility);
       double const shown = cell.squared_size / (12.0 * shear_modulus);
       is_permeable = is_permeable || passes > 0.0;
       typename Field::CornerMatrix steadying = std::max(shown - passes, 0.0) * cell.gradients;
@@ -77,7 +79,8 @@ class PoreFlow {
     FlowStep step{assembled(field, flow), assembled(field, change), viewed(volumes)};
     Eigen::VectorXd storage = step.volumes;
     for (int point = 0; point < grid.point_count(); ++point)
-      storage(point) *= flow_in(field, Field::element_of(point)).storage(pores(point));
+      storage(point) *=
+          require_not_negative("storage of pore water", flow_in(field, Field::element_of(point)).storage(pores(point)));
     step.change += typename Field::Matrix(field.shapes().transpose() * storage.asDiagonal() * field.shapes());
     return step;
   }

@@ -4,10 +4,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "scarp/bvp/constraints.hpp"
 #include "scarp/bvp/grid.hpp"
+#include "scarp/bvp/load_history.hpp"
 #include "scarp/core/index.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -53,15 +56,25 @@ struct WholeResidual {
   }
 };
 
-/// |unbalanced| over |loads| of free degrees of freedom of attached bodies, from `first` to before `end`; 0 without
-/// such loads.
-inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads,
-                              std::vector<int> const& free_dofs, int first, int end) {
-  double free = 0.0;
-  for (int const dof : free_dofs) free += dof < first || dof >= end ? 0.0 : unbalanced(dof) * unbalanced(dof);
-  double const scale = loads.segment(first, end - first).norm();
-  return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
-}
+/// How large a part's loads were at the knots of their history: what passes through zero has no size of its own there.
+class PastLoads {
+ public:
+  /// size [N] at the next knot, a load factor
+  void add(double load, double size) {
+    sizes_.emplace_back(load, std::max(size, sizes_.empty() ? 0.0 : sizes_.back().second));
+  }
+  /// What imbalances count relative to [N], for loads of this size at a load factor: a tenth at least of the largest at
+  /// the knots up to there; 0 for no loads.
+  double scale(double size, double load) const {
+    constexpr double least = 0.1;
+    auto const next = std::upper_bound(sizes_.begin(), sizes_.end(), load,
+                                       [](double at, auto const& knot) { return at < knot.first; });
+    return size == 0.0 || next == sizes_.begin() ? size : std::max(size, least * (next - 1)->second);
+  }
+
+ private:
+  std::vector<std::pair<double, double>> sizes_;  ///< load factor, largest up to there
+};
 
 /// Imbalance of each region that is held nowhere, as a rigid body, relative to its own dead loads: the reactions of
 /// heavy ground would hide a light block that shares its nodes. Regions with a prescribed node have reactions and
@@ -69,6 +82,7 @@ inline double residual_beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd
 ///
 /// The resultant \f$ \sqrt{|\sum f|^2 + |\sum a \times f|^2 / r^2} \f$ of the unbalanced forces f over that of the
 /// loads; a is the initial place of a node from the mean place of the region's nodes, r the root mean square of |a|.
+/// Where loads pass through zero, a tenth of the largest that they had at a knot counts in their place.
 /// The imbalance is that of all nodes of the region, since what carries it acts where it meets its neighbours; the
 /// loads are those of nodes that no other region has, since the weight of a neighbour must not make them look large.
 /// Sums rather than norms over the nodes: a block of concrete's own forces, 1e3 times as stiff as the ground, are
@@ -106,15 +120,21 @@ class SCARP_EXPORT RegionResiduals {
 
   bool empty() const { return parts_.empty(); }
 
-  /// unbalanced, loads [N], shape (degrees of freedom)
-  double largest(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
+  /// loads [N], shape (degrees of freedom), at a knot of their history, the next one
+  void add_knot(double load, Eigen::VectorXd const& loads) {
+    for (auto& part : parts_) part.past.add(load, part.resultant(loads, part.own));
+  }
+
+  /// unbalanced, loads [N], shape (degrees of freedom); load: factor
+  double largest(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load) const {
     double largest = 0.0;
-    for (auto const& part : parts_) largest = std::max(largest, part.residual(unbalanced, loads));
+    for (auto const& part : parts_) largest = std::max(largest, part.residual(unbalanced, loads, load));
     return largest;
   }
 
-  void list(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, std::vector<PartResidual>& to) const {
-    for (auto const& part : parts_) to.push_back({part.name, part.residual(unbalanced, loads)});
+  void list(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load,
+            std::vector<PartResidual>& to) const {
+    for (auto const& part : parts_) to.push_back({part.name, part.residual(unbalanced, loads, load)});
   }
 
  private:
@@ -123,14 +143,15 @@ class SCARP_EXPORT RegionResiduals {
     std::vector<int> nodes{};         ///< of its elements; none is prescribed. First those that no other region has
     std::vector<Vector<Dim>> arms{};  ///< of these nodes, over the region's radius
     std::size_t own = 0;              ///< how many no other region has
+    PastLoads past{};
 
     /// 0 for a region without loads, such as a block before it is placed, and for one whose loads balance to round-off.
-    double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads) const {
-      double const scale = resultant(loads, own);
+    double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load) const {
+      double const size = resultant(loads, own);
       double applied = 0.0;
       for (std::size_t k = 0; k < own; ++k) applied += loads.template segment<Dim>(Dim * nodes[k]).norm();
       constexpr double round_off = 1e-12;
-      return scale <= round_off * applied ? 0.0 : resultant(unbalanced, nodes.size()) / scale;
+      return size <= round_off * applied ? 0.0 : resultant(unbalanced, nodes.size()) / past.scale(size, load);
     }
 
     /// Of the first so many nodes' forces: sum and couple, the latter over the region's radius.
@@ -158,6 +179,58 @@ class SCARP_EXPORT RegionResiduals {
   }
 
   std::vector<Part> parts_;
+};
+
+/// Imbalances of a problem's forces, see Problem::residuals.
+template <int Dim>
+class ForceResiduals {
+ public:
+  WholeResidual whole;
+
+  /// end: first degree of freedom behind those of mesh and attached body
+  ForceResiduals(Grid<Dim> const& grid, Constraints const& constraints, int end)
+      : whole(WholeResidual::of(constraints, end)), first_(grid.dof_count()), end_(end), regions_(grid, constraints) {}
+
+  bool has_regions() const { return !regions_.empty(); }
+
+  /// How large the parts' loads are at the knots of their history.
+  void learn(LoadHistory const& history) {
+    if (end_ == first_ && regions_.empty()) return;
+    double knot = history.next_knot(-std::numeric_limits<double>::infinity());
+    for (; std::isfinite(knot); knot = history.next_knot(knot)) {
+      Eigen::VectorXd const loads = history.at(knot);
+      regions_.add_knot(knot, loads);
+      past_.add(knot, size_beside(loads));
+    }
+  }
+
+  // unbalanced, loads [N], shape (degrees of freedom); load: factor
+  double largest(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load) const {
+    return std::max({whole.residual(unbalanced, loads), regions_.largest(unbalanced, loads, load),
+                     beside(unbalanced, loads, load)});
+  }
+  std::vector<PartResidual> list(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load,
+                                 bool has_attachment) const {
+    std::vector<PartResidual> parts{{"all", whole.residual(unbalanced, loads)}};
+    regions_.list(unbalanced, loads, load, parts);
+    if (has_attachment) parts.push_back({"attached", beside(unbalanced, loads, load)});
+    return parts;
+  }
+  /// Of attached bodies over their loads; 0 without such loads.
+  double beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load) const {
+    double free = 0.0;
+    for (int const dof : whole.free_dofs) free += dof < first_ || dof >= end_ ? 0.0 : unbalanced(dof) * unbalanced(dof);
+    double const scale = past_.scale(size_beside(loads), load);
+    return free == 0.0 || scale == 0.0 ? 0.0 : std::sqrt(free) / scale;
+  }
+
+ private:
+  double size_beside(Eigen::VectorXd const& loads) const { return loads.segment(first_, end_ - first_).norm(); }
+
+  int first_;  ///< degree of freedom of attached bodies
+  int end_;
+  PastLoads past_{};  ///< of attached bodies
+  RegionResiduals<Dim> regions_;
 };
 
 }  // namespace scarp::detail
