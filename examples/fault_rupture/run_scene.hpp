@@ -192,13 +192,15 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
         packings_of("B", at(choice.probe_b_x, choice.probe_b_y)),
         footing_log(folder, scene.structure, to, profiles, depth, start), std::ref(*water),
         scarp::ConvergenceLog(folder / "convergence.csv", measure, start), scarp::Progress(to, measure, begun.name),
-        scarp::DistortionWarning<2>([&](auto const& worst) {
-          examples::print(
-              stderr,
-              "{}warning: element {} at ({:.2f}, {:.2f}) is sheared by {:.0f} % (mean ratio {:.2f}; 1 is regular, "
-              "0 without area): compare with another --pattern, or take a longer --length or less throw\n",
-              begun.name, worst.element, worst.place.x(), worst.place.y(), 100.0 * worst.shear, worst.mean_ratio);
-        }),
+        scarp::DistortionWarning<2>(
+            [&](auto const& worst) {
+              examples::print(
+                  stderr,
+                  "{}warning: element {} at ({:.2f}, {:.2f}) is sheared by {:.0f} % (mean ratio {:.2f}; 1 is regular, "
+                  "0 without area): compare with another --pattern, or take a longer --length or less throw\n",
+                  begun.name, worst.element, worst.place.x(), worst.place.y(), 100.0 * worst.shear, worst.mean_ratio);
+            },
+            0.2, "soil"),
         std::ref(budget), std::ref(stop), scarp::TimeLimit(choice.time_limit, begun.moment));
   });
 

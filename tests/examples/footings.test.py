@@ -38,5 +38,10 @@ with tempfile.TemporaryDirectory() as scratch:
                 expect(told["max_accepted_residual"] <= 1e-2, f"{title}: a residual of {told['max_accepted_residual']} was accepted")
                 expect(told["vertical_stress_error"] <= 1e-2, f"{title}: vertical stress is wrong by {told['vertical_stress_error']}")
                 if case != "free":
+                    expect("sheared by 0 %" not in done.stderr, f"{title}: it warns of an element that nothing has sheared: {done.stderr[:1000]}")
+                    for table in ("probe_A.csv", "convergence.csv"):
+                        with open(pathlib.Path(scratch, title.replace(", ", "_"), table), newline="") as rows:
+                            throws = [float(row["throw_over_depth"]) for row in csv.DictReader(rows)]
+                        expect(min(throws) == 0.0 < max(throws), f"{title}: throws of {table} begin at {min(throws)}")
                     expect(told["force_imbalance"] <= unbalanced, f"{title}: the ground carries {told['force_imbalance']} too much or little")
 finish()

@@ -93,6 +93,25 @@ TEST_CASE("the most distorted element is found, with its place now") {
   CHECK((worst.place - Vector<2>(1.5, 0.9)).norm() < 1e-12);
 }
 
+TEST_CASE("elements of other regions do not count where one is named") {
+  auto mesh = scarp::BoxMesh<scarp::Quad4>{.lengths = {2.0, 1.0}, .cells = {2, 1}}.generate();
+  mesh.regions.push_back("thin");
+  mesh.element_region.back() = static_cast<int>(mesh.regions.size()) - 1;
+  for (auto& node : mesh.nodes) node.x() = node.x() > 1.5 ? 1.1 : node.x();  // the right one: 0.1 by 1
+  Ground ground{decltype(unit_squares())(std::move(mesh))};
+  auto const soil = ground.elements.regions().front();
+  CHECK(scarp::largest_distortion(ground.elements).mean_ratio < 0.2);
+  CHECK(scarp::largest_distortion(ground.elements, soil).mean_ratio == Approx(1.0).epsilon(1e-12));
+  CHECK_REFUSED(scarp::largest_distortion(ground.elements, "water"), "water");
+  int told = 0;
+  scarp::DistortionWarning<2> warning([&](auto const& worst) { told += worst.element == 0 ? 1 : 100; }, 0.2, soil);
+  warning.attempted(ground, scarp::StepReport{});
+  CHECK(told == 0);
+  shear(ground.elements, 3.0);
+  warning.attempted(ground, scarp::StepReport{});
+  CHECK(told == 1);
+}
+
 TEST_CASE("a limit that is no ratio is refused") {
   CHECK(samples::message_of([] { scarp::DistortionWarning<2>([](auto const&) {}, -0.1); }) ==
         samples::Naming{"mean ratio that is warned of", "-0.1"});
