@@ -15,8 +15,7 @@ def corners(folder, summary, throw, surface):
     if options.get("footing") != "frictional" or centre is None or width is None:
         return None
     table = figures.read_csv(folder / "footing.csv", ["load", "throw_over_depth", "settlement", "horizontal_displacement", "tilt"])
-    # The row of a throw of 0 is the last one before the fault moves.
-    row = len(table["load"]) - 1 - np.argmin(np.abs(table["throw_over_depth"] - max(throw, 0.0))[::-1])
+    row = figures.last_nearest(table["throw_over_depth"], max(throw, 0.0))
     tilt = table["tilt"][row]
     base = np.array([centre + table["horizontal_displacement"][row], surface - table["settlement"][row]])
     turned = np.array([[np.cos(tilt), np.sin(tilt)], [-np.sin(tilt), np.cos(tilt)]])  # clockwise

@@ -29,7 +29,7 @@ def probe_packings(folder):
 def strains_at(folder, name, throws):
     """Deviatoric strain of a probe at these throws [%]"""
     probe = figures.read_csv(folder / f"probe_{name}.csv", ["throw_over_depth", "eps_q"])
-    return [100.0 * probe["eps_q"][np.argmin(np.abs(probe["throw_over_depth"] - throw))] for throw in throws]
+    return [100.0 * probe["eps_q"][figures.last_nearest(probe["throw_over_depth"], throw)] for throw in throws]
 
 
 def panels(found, width, height, gap, **more):

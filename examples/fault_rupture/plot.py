@@ -57,7 +57,7 @@ def probe_place(folder, name, throw, grid):
         probe = read_probe(folder, name)
     except figures.InputError:
         return None
-    row = np.argmin(np.abs(probe["throw_over_depth"] - throw))
+    row = figures.last_nearest(probe["throw_over_depth"], throw)
     if not np.isclose(probe["throw_over_depth"][row], throw, rtol=1e-9, atol=1e-12):
         return None
     alike = np.ones(len(grid.cells), dtype=bool)

@@ -167,7 +167,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     });
   }
   double const depth = scene.ground.depth();
-  scarp::LoadMeasure const measure{depth, "throw_over_depth"};
+  scarp::LoadMeasure const measure{depth, "throw_over_depth", 0.0};  // no throw while a footing is placed
   double const to = scene.throw_to;
   constexpr int profiles = 17;
   auto const start = files.resumes() ? scarp::CsvStart::resumed : scarp::CsvStart::anew;

@@ -93,6 +93,11 @@ def finite(value):
     return float(value) if is_number and np.isfinite(value) else None
 
 
+def last_nearest(values, wanted):
+    """Index of the last of the values that are nearest to the wanted one: a throw of 0 has many rows before the fault moves."""
+    return len(values) - 1 - np.argmin(np.abs(values - wanted)[::-1])
+
+
 class Grid(typing.NamedTuple):
     points: np.ndarray  # [m], shape (nodes, 2), of hexahedra (nodes, 3)
     cells: np.ndarray   # node numbers of the corners, shape (cells, 3) or (cells, 4), of hexahedra (cells, 8)

@@ -2,6 +2,7 @@
 """[slow] Footings of fault_rupture stand: all cases and bases, the whole throw on Mohr-Coulomb ground, the beginning of it on packings.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without); SCARP_THROW=whole: packings too go to
 h/H = 0.085."""
+import csv
 import json
 import os
 import pathlib

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -72,14 +74,15 @@ struct Observers {
   }
 };
 
-/// How tables and messages express the load: divided by a unit, under a name.
+/// How tables and messages express the load: divided by a unit, under a name. Smaller ones than the least count as it.
 struct LoadMeasure {
-  double unit = 1.0;          ///< load factor that counts as one
-  std::string name = "load";  ///< in headers of tables and messages
+  double unit = 1.0;                                        ///< load factor that counts as one
+  std::string name = "load";                                ///< in headers of tables and messages
+  double least = -std::numeric_limits<double>::infinity();  ///< load factor
 
   /// \throws InputError for a unit that is not positive
   void validate() const { require_positive("unit of the load", unit); }
-  double of(double load) const { return load / unit; }  ///< Load in units of the measure.
+  double of(double load) const { return std::max(load, least) / unit; }  ///< Load in units of the measure.
 };
 
 /// When a series writes: at load 0, whenever the load has passed a further multiple of to / count, and at the end.
