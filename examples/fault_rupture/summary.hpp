@@ -127,16 +127,17 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
 
 /// The strip of small elements: its edges, evenly from bedrock to the surface, and on bare ground the least distance between
 /// them and the band, which has gone from 5 to 95 % of the offset; a footing spreads the settlement beside the band. [m]
+/// bottom: y of the bedrock in the mesh [m]
 inline void add_strip(nlohmann::ordered_json& json, PilotSize const& strip, scarp::RuptureSurvey const& survey,
-                      bool is_bare) {
+                      double bottom, bool is_bare) {
   constexpr int levels = 25;
   json["strip_size"] = strip.fine;
   json["strip_width"] = 2.0 * strip.margin;
-  for (int k = 0; k <= levels; ++k) json["strip_edges"].push_back(strip.edges(survey.depth * k / levels));
+  for (int k = 0; k <= levels; ++k) json["strip_edges"].push_back(strip.edges(bottom + survey.depth * k / levels));
   if (!is_bare) return;
   double margin = std::numeric_limits<double>::infinity();
   for (auto const& band : survey.bands) {
-    auto const [left, right] = strip.edges(band.height);
+    auto const [left, right] = strip.edges(bottom + band.height);
     bool const has_strip = left < right;
     double const distance =
         has_strip ? std::min(band.band_x05 - left, right - band.band_x05 - band.band_width) : -band.band_width;
@@ -163,8 +164,9 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
   json["depth"] = scene.ground.depth();
   json["element"] = element_name;
   json["elements"] = grid.mesh().elements.size();
-  if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey, choice.scene == Case::free);
-  auto const distorted = scarp::largest_distortion(grid);
+  double const bottom = scene.ground.surface_level() - scene.ground.depth();
+  if (scene.ground.strip) add_strip(json, *scene.ground.strip, survey, bottom, choice.scene == Case::free);
+  auto const distorted = scarp::largest_distortion(grid, "soil");
   json["distorted_element"] = {{"number", distorted.element},
                                {"x", distorted.place.x()},
                                {"y", distorted.place.y()},

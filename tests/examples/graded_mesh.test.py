@@ -2,7 +2,9 @@
 """[slow] Graded meshes of fault_rupture: a short --length refines a strip along the rupture, --size and --strip-width override it, meshes of
 other directions agree. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import json
+import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -76,6 +78,24 @@ with tempfile.TemporaryDirectory() as scratch:
     refined = told(scratch, "--mesh", FILE, "--length", "4")
     expect(refined["strip_size"] == graded["strip_size"] and refined["elements"] > as_it_is["elements"], f"a length refines it: {refined}")
     expect(abs(refined["surface_x50"] - graded["surface_x50"]) < 1.0, f"x50 {refined['surface_x50']} and {graded['surface_x50']}")
+    # Bedrock of another height above sea level.
+    before, nodes, elements = re.split(r"\$Nodes\n\d+\n|\$EndNodes\n", FILE.read_text())
+    places = [line.split() for line in nodes.splitlines()]
+    lower = "".join(f"{number} {x} {float(y) - 37.5} {z}\n" for number, x, y, z in places)
+    pathlib.Path(scratch, "lower.msh").write_text(f"{before}$Nodes\n{len(places)}\n{lower}$EndNodes\n{elements}")
+    shifted = told(scratch, "--mesh", "lower.msh", "--length", "4")
+    expect(abs(shifted.get("strip_margin", 0.0) - refined["strip_margin"]) < 0.01, f"margins {shifted.get('strip_margin')}, {refined['strip_margin']}")
+    apart = max((abs(a - b) if a is not None else math.inf for one, other in zip(shifted["strip_edges"], refined["strip_edges"])
+                 for a, b in zip(one, other)), default=math.inf)
+    expect(apart < 1e-6, f"edges of the strip: {shifted['strip_edges']}")
+    sized = told(scratch, "--mesh", FILE, "--length", "4", "--size", "2", *BEGINNING)
+    expect((sized.get("strip_size"), sized.get("strip_width")) == (2.0, refined["strip_width"]), f"--size overrides that of the strip: {sized}")
+    rejected = run(scratch, "--mesh", FILE, "--length", "8", "--size", "2", *BEGINNING)
+    expect(rejected.returncode == 2 and "or a --length below 5.6 m" in rejected.stderr, f"a length that the file resolves: {rejected.stderr}")
+    idle = run(scratch, "--mesh", FILE, "--length", "8", "--strip-width", "6", *BEGINNING)
+    expect(idle.returncode == 0 and "the strip refines nothing" in idle.stderr, f"a strip that refines nothing is told: {idle.stderr[-500:]}")
+    busy = run(scratch, "--mesh", FILE, "--length", "4", *BEGINNING)
+    expect("the strip refines nothing" not in busy.stderr, "a strip that refines something")
     coarse = run(scratch, "--mesh", FILE, "--length", "4", "--strip-width", "0", *BEGINNING)
     expect(coarse.returncode == 0 and "needs elements of at most 1.6 m" in coarse.stderr, f"too coarse a file is told: {coarse.stderr[-500:]}")
 
