@@ -82,13 +82,15 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
 }
 
 /// A structure's motion and what presses on its base; nothing for bare ground.
+/// load: factor of the committed state; below 0 a part of the structure's weight acts
 template <class Problem, class SceneType>
-void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem const& problem) {
-  if constexpr (requires { scene.structure.motion(problem); }) {
-    auto const motion = scene.structure.motion(problem);
+void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem const& problem, double load) {
+  if constexpr (requires { scene.structure.motion(problem, load); }) {
+    auto const motion = scene.structure.motion(problem, load);
     auto const pressure = base_pressure(motion);
     auto const& footing = scene.structure.footing;
     double const weight = footing.bearing * footing.width;
+    double const acting = std::clamp(load - scene.structure.start(), 0.0, 1.0) * weight;
     json["bearing_pressure"] = footing.bearing;
     json["footing_centre"] = footing.centre;
     json["footing_width"] = footing.width;
@@ -98,7 +100,7 @@ void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem c
     json["contact_pressure_min"] = pressure.least;
     json["contact_pressure_max"] = pressure.largest;
     json["contact_share"] = pressure.pressed;
-    json["force_imbalance"] = std::abs(scarp::support(motion) - weight) / weight;
+    json["force_imbalance"] = std::abs(scarp::support(motion) - acting) / weight;
   }
 }
 
@@ -201,7 +203,7 @@ nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Pro
       offset.share(scarp::settlement_at(profile, profile.front().x_initial + from_side));
   json["settlement_hanging_wall_over_throw"] =
       offset.share(scarp::settlement_at(profile, profile.back().x_initial - from_side));
-  add_footing(json, scene, problem);
+  add_footing(json, scene, problem, run.load);
   json["tolerance"] = scene.tolerance;
   json["max_accepted_residual"] = run.largest_residual;
   json["steps"] = run.steps;

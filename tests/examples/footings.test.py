@@ -45,4 +45,15 @@ with tempfile.TemporaryDirectory() as scratch:
                             throws = [float(row["throw_over_depth"]) for row in csv.DictReader(rows)]
                         expect(min(throws) == 0.0 < max(throws), f"{title}: throws of {table} begin at {min(throws)}")
                     expect(told["force_imbalance"] <= unbalanced, f"{title}: the ground carries {told['force_imbalance']} too much or little")
+    # More than the ground bears: the run ends while a part of the weight acts.
+    done = subprocess.run([program.resolve(), "--quick", "--soil", "mohr_coulomb", "--case", "heavy", "--bearing-pressure", "1e7", "--frames", "1",
+                           "--output", "sunk"], cwd=scratch, capture_output=True, text=True)
+    expect(done.returncode == 3, f"a footing that sinks: ended with {done.returncode}: {done.stderr[-500:]}")
+    told = json.loads(pathlib.Path(scratch, "sunk", "summary.json").read_text())
+    with open(pathlib.Path(scratch, "sunk", "footing.csv"), newline="") as rows:
+        last = list(csv.DictReader(rows))[-1]
+    expect(-1.0 < float(last["load"]) < 0.0, f"it ends at a load of {last['load']}")
+    for key, column in (("contact_pressure_min", "pressure_min"), ("contact_pressure_max", "pressure_max")):
+        expect(abs(told[key] / float(last[column]) - 1.0) < 1e-9, f"{key} is {told[key]}, the last row {last[column]}")
+    expect(told["force_imbalance"] < 1e-6, f"the ground carries {told['force_imbalance']} of the weight too much or little")
 finish()
