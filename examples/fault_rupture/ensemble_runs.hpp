@@ -12,6 +12,7 @@
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
 #include "ensemble.hpp"
+#include "older_results.hpp"
 #include "own_folders.hpp"
 #include "run_scene.hpp"
 #include "scarp/io/atomic_file.hpp"

@@ -11,6 +11,7 @@
 #include "../shared/budget_report.hpp"
 #include "../shared/print.hpp"
 #include "../shared/run_options.hpp"
+#include "older_results.hpp"
 #include "scarp/budget/error_budget.hpp"
 #include "scarp/fault/surface_log.hpp"
 #include "scarp/observe/convergence_log.hpp"
@@ -43,31 +44,6 @@ struct Start {
   scarp::ThreadExecutor* threads = nullptr;  ///< that several runs share; without, the run has its own
   std::string name{};                        ///< of one among several, before its lines on the error stream
 };
-
-/// An old summary, of a run or of an ensemble, would speak for the new one.
-inline void remove_older_summaries(std::filesystem::path const& folder) {
-  for (auto const* name : {"summary.json", "summary.txt", "ensemble.json", "ensemble.txt", "surface_mean.csv"})
-    std::filesystem::remove(folder / name);
-}
-
-/// An older, longer series would be mixed up with the new one. A run that goes on keeps its series.
-inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
-  remove_older_summaries(folder);
-  if (goes_on) return;
-  for (auto const* name :
-       {"fields.pvd", "footing.csv", "footing_base.csv", "water.csv", "packing_grains.csv", "packing_contacts.csv"})
-    std::filesystem::remove(folder / name);
-  for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
-    std::string const name = file.path().filename().string();
-    if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
-  }
-  if (!std::filesystem::exists(folder / "packings")) return;
-  for (auto const& file : std::filesystem::directory_iterator(folder / "packings")) {
-    std::string const name = file.path().stem().string();
-    bool const ours = name == "A" || name == "B" || name.starts_with("A_") || name.starts_with("B_");
-    if (ours && file.path().extension() == ".csv") std::filesystem::remove(file.path());
-  }
-}
 
 /// Takes the folder over, once: a new run before it writes its tables, a resumed one at its first attempt, since until
 /// then its checkpoint may be rejected.
