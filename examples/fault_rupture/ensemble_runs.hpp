@@ -40,10 +40,10 @@ struct EnsembleRuns {
     scarp::require_memory(fmt::format("an ensemble of {} runs", seeds.size()),
                           static_cast<double>(seeds.size()) * memory_of(choice, size_of_scene(choice), 1),
                           "name fewer --seeds");
+    for (auto& member : members) member->prepare();  // what is rejected here leaves older results alone
     folder.begin();
     remove_older_summaries(folder.path());
     std::filesystem::remove(folder.path() / "convergence.csv");
-    for (auto& member : members) member->prepare();
     scarp::ThreadExecutor threads(choice.threads);
     {
       std::vector<std::jthread> runs;

@@ -59,6 +59,12 @@ with tempfile.TemporaryDirectory() as scratch:
     again = run(scratch, "--seeds", "1,3,2", "--output", "all")
     expect(again.returncode == 2 and "all" in again.stderr, "it keeps an ensemble that is there")
 
+    before = {path: path.read_bytes() for path in (scratch / "all").rglob("*") if path.is_file()}
+    failed = subprocess.run([program.resolve(), "--quick", "--size", "8", "--grains", "1", "--seeds", "1,3,2", "--output", "all", "--overwrite"],
+                            cwd=scratch, capture_output=True, text=True, timeout=300)
+    after = {path: path.read_bytes() for path in (scratch / "all").rglob("*") if path.is_file()}
+    expect(failed.returncode > 0 and after == before, f"packings that cannot be made replace nothing: {failed.stderr[-300:]}")
+
     other = run(scratch, "--seeds", "1,2", "--output", "all", "--checkpoint", "elsewhere", "--resume")
     expect(other.returncode == 2 and "all" in other.stderr, f"also from one of other seeds that resumes: {other.stderr[-300:]}")
 
