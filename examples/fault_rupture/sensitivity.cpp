@@ -114,7 +114,8 @@ SensitivityFile::SensitivityFile(std::filesystem::path path, std::string scene)
   }
 }
 
-void SensitivityFile::add(std::string const& part, SensitivityResult result) {
+void SensitivityFile::add(std::string const& part, SensitivityResult const& result) {
+  results_[part] = result;
   auto all = content(path_);
   auto* entry = entry_of(all, scene_);
   if (entry == nullptr) {
@@ -127,7 +128,6 @@ void SensitivityFile::add(std::string const& part, SensitivityResult result) {
                             {"date", result.date},
                             {"commit", result.commit}};
   examples::write_json(path_, all);
-  results_[part] = std::move(result);
 }
 
 std::filesystem::path default_sensitivity_file() {

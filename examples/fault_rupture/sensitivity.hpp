@@ -46,8 +46,9 @@ class SensitivityFile {
   SensitivityFile(std::filesystem::path path, std::string scene);
 
   SensitivityResults const& results() const { return results_; }
-  /// \throws scarp::FileError
-  void add(std::string const& part, SensitivityResult result);
+  /// Its results have this one even where the file does not take it.
+  /// \throws scarp::InputError, scarp::FileError
+  void add(std::string const& part, SensitivityResult const& result);
 
  private:
   std::filesystem::path path_;

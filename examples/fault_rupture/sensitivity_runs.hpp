@@ -58,8 +58,13 @@ struct SensitivityRuns {
       scarp::reject(
           "its load steps are limited by something else (smaller ones were impossible): give a smaller "
           "--max-displacement-gradient");
-    file.add(run.part, {summary["surface_x50"].get<double>(), command_options(run),
-                        "examples/run fault_rupture --sensitivity-runs", scarp::time_stamp().substr(0, 10), commit});
+    try {
+      file.add(run.part, {summary["surface_x50"].get<double>(), command_options(run),
+                          "examples/run fault_rupture --sensitivity-runs", scarp::time_stamp().substr(0, 10), commit});
+    } catch (std::exception const& problem) {
+      examples::print(stderr, "warning: the sensitivity run for {} is not kept for later runs: {}\n", run.part,
+                      problem.what());
+    }
   }
 
   /// \return its summary \throws scarp::InputError where it has stopped early
