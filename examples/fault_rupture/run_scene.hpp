@@ -201,6 +201,7 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
   bool const sound = !stages.stopped();  // all could be written
   if ((!report.verdict.acceptable() || scene.end() > to) && sound) observers.ended(problem, report.load);
   double const reaction = scarp::generalised_reaction(problem) - notes.reaction_at_rest;
+  bool interrupted_later = false;  // in sensitivity runs, which the root rank alone runs
   on_root_rank(problem, [&] {
     takeover->take();  // also when nothing was left to do
     if (!sound) {
@@ -234,13 +235,19 @@ int run(Choice const& choice, SceneType const& scene, Start const& begun) {
     };
     std::string text = written({});  // the run's own results first: sensitivity runs take long
     if (!sound) return;
-    if (begun.sensitivity && report.verdict.acceptable()) text = written(begun.sensitivity(report));
-    begun.folder->end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
+    if (begun.sensitivity && report.verdict.acceptable()) {
+      text = written(begun.sensitivity(report));
+      interrupted_later = choice.sensitivity_runs && stop.wants_stop();
+    }
+    auto const reason = interrupted_later ? scarp::Reason::interrupted : report.verdict.reason;
+    bool const finished = report.verdict.acceptable() && !interrupted_later;
+    begun.folder->end(finished ? "finished" : std::string(name(reason)));
     if (begun.sensitivity) examples::print(stdout, "{}", text);
   });
   if (!sound) return 1;
-  if (report.verdict.acceptable()) return 0;
   constexpr int interrupted = 130;  // as a shell reports Ctrl-C
+  if (interrupted_later) return interrupted;
+  if (report.verdict.acceptable()) return 0;
   return report.verdict.reason == scarp::Reason::interrupted ? interrupted : 3;
 }
 

@@ -38,6 +38,7 @@ struct SensitivityRuns {
       try {
         add(run, steps, file);
       } catch (std::exception const& problem) {
+        if (stop.wants_stop()) return;
         examples::print(stderr, "warning: the sensitivity run for {} has failed, so that this part is not known: {}\n",
                         run.part, problem.what());
       }

@@ -4,6 +4,7 @@ scene, and a later run of the same scene tells it. Environment: SCARP_EXAMPLES, 
 77, without)."""
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -59,6 +60,23 @@ with tempfile.TemporaryDirectory() as scratch:
     done, local = run(scratch, "--length", "0")
     expect(local["error_budget"]["parts"]["linear_residual"]["bound"] == 1e-8, "factors without a length have to solve exactly")
     expect(summary["error_budget"]["parts"]["linear_residual"]["bound"] > 1e-8, "Krylov's method with one need not")
+
+    own = [program.resolve(), "--quick", "--soil", "mohr_coulomb", "--length", "12", "--frames", "1", "--sensitivity-runs", "--output"]
+    kept = subprocess.run([*own, "kept", "--sensitivity-file", "/proc/known.json"], cwd=scratch, capture_output=True, text=True)
+    found = json.loads(pathlib.Path(scratch, "kept", "summary.json").read_text())["error_budget"]["parts"]
+    expect(kept.returncode == 0 and "mesh is not kept for later runs" in kept.stderr, f"a file that cannot be written: {kept.stderr[-500:]}")
+    expect(all(found.get(part, {}).get("value") == parts[part]["value"] for part in ("mesh", "load_step")), f"its runs count: {found}")
+
+    with subprocess.Popen([*own, "ended", "--sensitivity-file", "none.json"], cwd=scratch, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as process:
+        for line in process.stderr:
+            if line.startswith("sensitivity run for"):
+                process.send_signal(signal.SIGINT)
+                break
+        said = process.stderr.read()
+    state = json.loads(pathlib.Path(scratch, "ended", "run.json").read_text())["state"]
+    expect((process.returncode, state) == (130, "interrupted"), f"a signal in a sensitivity run: {process.returncode}, {state}\n{said[-500:]}")
+    expect("has failed" not in said, f"no run has failed: {said[-500:]}")
 
     pathlib.Path(scratch, "known.json").write_text('{"scene": ')
     done, _ = run(scratch)
