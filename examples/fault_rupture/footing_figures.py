@@ -42,6 +42,8 @@ def footing(folder):
     table = figures.read_csv(folder / "footing.csv", ["load", "throw_over_depth", "settlement", "tilt", "pressure_min",
                                                       "pressure_max", "contact_share"])
     moving = table["load"] >= 0.0
+    if not moving.any():
+        raise figures.InputError("'footing.csv' holds no load from zero on (the fault has not moved yet): let it run on")
     throw = 100.0 * table["throw_over_depth"][moving]
     fig, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.6), layout="constrained")
     left.plot(throw, table["settlement"][moving], color=BLUE, label="settlement [m]")
