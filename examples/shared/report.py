@@ -95,7 +95,10 @@ def verdict(run):
         words += f", {'so far ' if ended else ''}inside its error budget"
     if run.ensemble:
         outside = members_outside(run)
-        words += f"; outside their error budgets: {', '.join(outside)}" if outside else ", all members that ended inside their error budgets"
+        if outside:
+            words += f"; outside their error budgets: {', '.join(outside)}"
+        elif any(isinstance(member, dict) and member.get("status") == "ok" for member in run.ensemble.get("members", [])):
+            words += ", all members that ended inside their error budgets"
     return element("p", f"<b>{text(words)}.</b>", class_="verdict bad" if outside or ended else "verdict")
 
 

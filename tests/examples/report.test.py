@@ -175,6 +175,29 @@ def check_stopped(folder):
         expect("INCOMPLETE" in Page(folder / "report.html").words, "a run that has not ended is not told so")
 
 
+def check_sunk(folder):
+    """A footing that sinks before the fault moves has no figure over the throw, but a page."""
+    done = subprocess.run([program, "--quick", "--soil", "mohr_coulomb", "--case", "heavy", "--bearing-pressure", "1e7", "--frames", "1",
+                           "--output", folder.name], cwd=folder.parent, capture_output=True, text=True, timeout=900)
+    expect(done.returncode == 3, f"a footing that sinks: ended with {done.returncode}: {done.stderr[-1000:]}")
+    (code, said), (page, trouble) = write_page(folder)
+    expect(code == 1 and "figure 'footing' is not drawn: 'footing.csv' holds no load from zero on" in said, f"figures: {code}\n{said}")
+    expect(page == 0 and not (folder / "figures/footing.png").exists(), f"an empty figure of a footing: {trouble}")
+
+
+def check_ensembles(folder):
+    """Of members that have ended alone it is told that they are inside their error budgets."""
+    folder.mkdir()
+    inside = "all members that ended inside their error budgets"
+    for states, told in ((("interrupted", "interrupted"), False), (("ok", "interrupted"), True), (("ok", "ok"), True)):
+        members = [{"seed": seed, "folder": f"seed_{seed}", "status": state} for seed, state in enumerate(states)]
+        (folder / "ensemble.json").write_text(json.dumps({"members": members}))
+        state = "finished" if set(states) == {"ok"} else "stopped early"
+        (folder / "run.json").write_text(json.dumps({"program": "fault_rupture, ensemble", "state": state}))
+        expect(write_page(folder, figures=False)[0][0] == 0, "a page of an ensemble")
+        expect((inside in Page(folder / "report.html").words) == told, f"an ensemble of {states} does not tell of its budgets what is so")
+
+
 def check_escapes(folder):
     """Whatever stands in the files is text."""
     evil = '"><script src="http://x/">&<img src=x onerror=alert(1)>'
@@ -234,6 +257,8 @@ with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
     check_packings(scratch / "out")
     check_site(scratch / "site")
     check_stopped(scratch / "stopped")
+    check_sunk(scratch / "sunk")
+    check_ensembles(scratch / "ensemble")
     check_escapes(scratch / "evil")
 if browser is None and not troubles:
     print("skipped: no browser opened the page (install chromium)")
