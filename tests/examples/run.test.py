@@ -3,6 +3,7 @@
 builds nothing says which."""
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -50,4 +51,21 @@ with tempfile.TemporaryDirectory() as folder:
     expect(done.returncode == 2 and not built and "no program has both" in done.stderr, f"water on a device is no error: {done.stderr}")
     done, built = run("--config", "nowhere.ini")
     expect(built == "fault_rupture", f"without the file, of which the program says more, it builds '{built}'")
+
+    # An ensemble with a member that stopped early has figures and a page: a repository with a program that writes nothing else.
+    tree = scratch / "repository"
+    (tree / "build/release/examples").mkdir(parents=True)
+    (tree / "examples/fault_rupture").mkdir(parents=True)
+    shutil.copytree(root / ".ci", tree / ".ci")
+    shutil.copy(root / "examples/run", tree / "examples/run")
+    (scratch / "cmake").write_text("#!/bin/sh\n")
+    program = tree / "build/release/examples/fault_rupture"
+    program.write_text('#!/bin/sh\nmkdir -p out && touch "out/$WRITES"; exit 3\n')
+    program.chmod(0o755)
+    (tree / "examples/fault_rupture/plot.py").write_text("import pathlib, sys\npathlib.Path(sys.argv[1], 'drawn').touch()\n")
+    for name, is_drawn in (("ensemble.json", True), ("summary.json", True), ("table.csv", False)):
+        shutil.rmtree(scratch / "out", ignore_errors=True)
+        done = subprocess.run([tree / "examples/run", "fault_rupture", "--output", "out"], cwd=scratch, env={**environment, "WRITES": name},
+                              capture_output=True, text=True)
+        expect(done.returncode == 3 and (scratch / "out/drawn").exists() == is_drawn, f"{name} of a run that stopped early: {done.stderr}")
 finish()
