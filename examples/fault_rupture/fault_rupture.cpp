@@ -116,7 +116,8 @@ void read_sand(CLI::App& app, Choice& choice) {
   choice.grain_friction = sand.friction;
   examples::for_each_option(sand, [&](std::string const& name, auto const& value, examples::Range, char const*) {
     auto const option = options.find(name);
-    if (option != options.end()) app.get_option(option->second)->default_str(fmt::format("{}", value));
+    if (option != options.end() && app.count(option->second) == 0)
+      app.get_option(option->second)->default_str(fmt::format("{}", value));
   });
   if (choice.water_table && sand.conductivity > 0.0 && app.count("--conductivity") == 0) {
     auto const flow = scarp::KozenyCarman::of_conductivity(sand.conductivity, sand.conductivity_void_ratio);

@@ -64,9 +64,9 @@ inline void choose_places(CLI::App& app, Choice& choice) {
   double const scale = choice.scale();
   auto const take = [&](char const* option, double& place, double value) {
     if (app.count(option) == 0) place = value;
-    app.get_option(option)->default_str(fmt::format("{}", place));
+    app.get_option(option)->default_str(fmt::format("{}", value));
   };
-  take("--depth", choice.depth, choice.depth);
+  take("--depth", choice.depth, choice.mesh.empty() ? usual.depth : choice.depth);
   take("--left", choice.left, choice.mesh.empty() ? choice.tip + scale * usual.left : choice.left);
   take("--width", choice.width, choice.mesh.empty() ? scale * usual.width : choice.width);
   auto const cotangent = [](double dip) { return 1.0 / std::tan(dip * std::numbers::pi / 180.0); };

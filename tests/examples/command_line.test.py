@@ -241,6 +241,23 @@ def check_config():
             expect(abs(summary["throw_over_depth"] - 0.001) < 1e-9, "the config file does not set the throw")
 
 
+def check_marked():
+    """run.json has the default of an option beside what was given, so that the page of the run marks it."""
+    given = {"--depth": "20", "--left": "-40", "--width": "58", "--probe-a-x": "-3", "--probe-a-y": "5", "--probe-b-x": "-15",
+             "--probe-b-y": "9", "--case": "light", "--footing-centre": "-8", "--soil": "mohr_coulomb", "--throw-over-depth": "0.001"}
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        (scratch / "own.sand").write_text("shape = ellipse\nfriction = 0.5\n")
+        sand = {"--sand": "own.sand", "--grains": "49", "--size": "12", "--throw-over-depth": "0.0005"}
+        for name, options in (("site", given), ("sand", sand)):
+            code, said = run(FAULT, "--quick", *command(options), "--output", name, folder=scratch)
+            expect(code == 0, f"{options}: ended with {code}\n{said}")
+            record = json.loads((scratch / name / "run.json").read_text())
+            alike = [option for option, value in options.items() if record["defaults"][option[2:]] == value]
+            expect(not alike, f"{name}: {alike} have what was given as their default")
+            expect(all(record["options"][option[2:]] == value for option, value in options.items()), f"{name}: {record['options']}")
+
+
 def check_renamed():
     """Options, values and keys by their names before version 0.2 still work, on the command line with a warning and in a file."""
     with tempfile.TemporaryDirectory() as scratch:
@@ -360,7 +377,7 @@ def check_repeat():
 if not FAULT.is_file():
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-checks = [check_help, check_bad_input, check_warnings, check_no_balance, check_materials, check_mesh_file, check_config, check_renamed, check_repeat,
+checks = [check_help, check_bad_input, check_warnings, check_no_balance, check_materials, check_mesh_file, check_config, check_marked, check_renamed, check_repeat,
           check_time_limit, check_interrupt]
 for check in checks + [check_bad_biaxial, check_list] * BIAXIAL.is_file():
     started = time.monotonic()
