@@ -103,6 +103,7 @@ void read_sand(CLI::App& app, Choice& choice) {
   auto const is_given = [&](std::string const& name) {
     if (name == "grains" && app.count("--quick") > 0) return true;
     if (name == "seed" && app.count("--seeds") > 0) return true;
+    if (name == "overconsolidation-ratio" && app.count("--local") > 0) return true;
     auto const option = options.find(name);
     return option != options.end() && app.count(option->second) > 0;
   };

@@ -84,6 +84,11 @@ def check_scenes(folder):
         expect(code == 0, f"fault_rupture {name}: ended with {code}\n{said}")
         results[name] = json.loads((folder / name / "summary.json").read_text())["void_ratio_min"] if code == 0 else None
     expect(results["default"] == results["file"] != results["loose"], f"void ratios {results}")
+    (folder / "once_loaded.sand").write_text("shape = ellipse\noverconsolidation-ratio = 2\n")
+    code, said = run(fault, *tiny, "--sand", "once_loaded.sand", "--output", "once_loaded", folder=folder)
+    expect(code == 0, f"fault_rupture, a sand that carried more: ended with {code}\n{said}")
+    ratio = json.loads((folder / "once_loaded/run.json").read_text())["options"]["overconsolidation-ratio"]
+    expect(float(ratio) == 1.0, f"--local stands for an overconsolidation ratio of 1 and not {ratio}")
     (folder / "discs.sand").write_text("shape = disc\n")
     code, said = run(fault, *tiny, "--sand", "discs.sand", "--output", "discs", folder=folder)
     expect(code == 2 and "only ellipse linear" in said, f"discs in fault_rupture: ended with {code}\n{said}")
