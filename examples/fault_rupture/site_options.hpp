@@ -143,6 +143,10 @@ inline void require_balance(Choice const& choice) {
     scarp::reject(
         "--young-modulus is {} Pa; expected from {:.4g} Pa on, what the ground carries at bedrock: give it in pascals",
         choice.young_modulus, carried);
+  constexpr double least_friction = 0.01;
+  if (choice.scene != Case::free && choice.base == Base::frictional && choice.base_friction < least_friction)
+    scarp::reject("--base-friction is {} (nothing holds a footing sideways that slides freely): give one from {} on",
+                  choice.base_friction, least_friction);
   double const least = carried / 400.0;
   if (choice.bearing_pressure > 0.0 && choice.bearing_pressure < least)
     scarp::reject("--bearing-pressure is {} Pa; expected 0 or from {:.4g} Pa on: give it in pascals, or leave it out",

@@ -102,6 +102,9 @@ def check_bad_input():
         check_refusal(FAULT, f"{option} below round-off", option, "1e-300", option)
     check_refusal(FAULT, "negative bearing pressure", "--bearing-pressure", "-1", "--bearing-pressure")
     check_refusal(FAULT, "a footing that no soil bears", "--bearing-pressure", "2e7", "--bearing-pressure")
+    for friction in ("0", "1e-12"):
+        check_refusal(FAULT, "a footing that nothing holds", "--base-friction", friction, "--base-friction is",
+                      also={"--case": "heavy", "--footing": "frictional", "--soil": "mohr_coulomb"})
     check_refusal(FAULT, "a footing in kilopascals", "--bearing-pressure", "91", "--bearing-pressure is 91 Pa", also={"--case": "heavy"})
     check_refusal(FAULT, "a modulus in megapascals", "--young-modulus", "25", "--young-modulus is 25 Pa", also={"--soil": "elastic"})
     check_refusal(FAULT, "ground that carried less", "--overconsolidation-ratio", "0.9", "--overconsolidation-ratio")
