@@ -367,7 +367,10 @@ int main(int argc, char** argv) {
       warn_of_unused(app, choice);
       fault_rupture::warn_of_ends(choice);
     }
-    if (choice.strip_width > 0.0) fault_rupture::run_pilot(choice);
+    if (choice.strip_width > 0.0) {
+      fault_rupture::run_pilot(choice);
+      if (fault_rupture::rank() == 0) fault_rupture::warn_of_idle_strip(choice);
+    }
     if (app.count("--estimate") > 0) {
       if (fault_rupture::rank() == 0) print_estimate(choice, seeds.size());
       return 0;

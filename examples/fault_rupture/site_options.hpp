@@ -153,6 +153,19 @@ inline void require_balance(Choice const& choice) {
                   choice.bearing_pressure, least);
 }
 
+/// A strip whose elements the mesh has already.
+inline void warn_of_idle_strip(Choice const& choice) {
+  auto ground = ground_of<Element>(choice);
+  auto const refined = ground.mesh({}).elements.size();
+  ground.strip.reset();
+  if (ground.mesh({}).elements.size() < refined) return;
+  examples::print(
+      stderr,
+      "warning: the strip refines nothing (the mesh has elements of {:.3g} m there already): give a smaller "
+      "--size, or leave --strip-width out\n",
+      choice.size);
+}
+
 /// The sides move with the walls of the fault, so that a rupture close to them is theirs.
 inline void warn_of_ends(Choice const& choice) {
   double const outcrop = choice.tip - choice.depth / std::tan(choice.dip * std::numbers::pi / 180.0);
