@@ -81,18 +81,27 @@ inline void choose_places(CLI::App& app, Choice& choice) {
   take("--footing-centre", choice.footing_centre, along_fault(usual.footing_centre, usual.depth));
 }
 
+/// How the elements of a mesh without a strip fit the length.
+inline void warn_of_coarse_mesh(Choice const& choice) {
+  double const largest = size_for<Element>(choice.length);
+  double const size = !choice.mesh.empty()  ? choice.mesh_size
+                      : choice.elements > 0 ? ground_of<Element>(choice).layer.size
+                                            : choice.size;
+  if (!(choice.length > 0.0 && choice.strip_width == 0.0 && largest < 0.9 * size)) return;
+  examples::print(
+      stderr, "warning: a --length of {} m needs elements of at most {:.2g} m along the fault: {}\n", choice.length,
+      largest,
+      choice.mesh.empty()
+          ? "give a smaller --size, or leave --size, --elements and --strip-width out to have a strip refined"
+          : "mesh them finer, or leave --strip-width out to have them refined");
+}
+
 /// How the elements of a file fit the length.
 inline void tell_of_mesh(Choice const& choice) {
-  double const largest = size_for<Element>(choice.length);
   examples::print(stderr,
                   "'{}': ground of {:.4g} m, elements of about {:.2g} m along the fault, a length of {:.3g} m\n",
                   choice.mesh, choice.depth, choice.mesh_size, choice.length);
-  if (choice.length > 0.0 && choice.strip_width == 0.0 && largest < 0.9 * choice.mesh_size)
-    examples::print(
-        stderr,
-        "warning: a --length of {} m needs elements of at most {:.2g} m along the fault: mesh them finer, or leave "
-        "--strip-width out to have them refined\n",
-        choice.length, largest);
+  warn_of_coarse_mesh(choice);
 }
 
 /// Length and sizes of elements where they are not given; recorded as if they were the defaults.
@@ -120,6 +129,7 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
         choice.length, choice.depth);
   if (!has_mesh) choose_strip<Element>(choice);
   if (of_file && rank() == 0) tell_of_mesh(choice);
+  if (!of_file && app.count("--length") > 0 && rank() == 0) warn_of_coarse_mesh(choice);
   auto const record = [&](char const* option, double value) {
     if (app.count(option) == 0) app.get_option(option)->default_str(fmt::format("{:g}", value));
   };
