@@ -109,14 +109,20 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
   bool const of_file = !choice.mesh.empty();
   bool const is_uniform = app.count("--strip-width") > 0 && choice.strip_width == 0.0;
   bool const has_length = app.count("--length") > 0 || choice.length == 0.0;
-  if (of_file && app.count("--size") > 0 && choice.strip_width == 0.0)
+  bool const has_size = app.count("--size") > 0;
+  bool const is_short = choice.length > 0.0 && size_for<Element>(choice.length) < choice.mesh_size;
+  bool const sizes_strip =
+      of_file && has_size && choice.strip_width == 0.0 && !is_uniform && app.count("--length") > 0 && is_short;
+  if (of_file && has_size && choice.strip_width == 0.0 && !sizes_strip)
     scarp::reject(
         "--size was given with --mesh and without --strip-width (elements of a file are refined in a strip only): give "
-        "both, or a --length");
+        "both, or a --length below {:.2g} m",
+        choice.mesh_size / size_for<Element>(1.0));
   bool const keeps_file = of_file && !has_length && choice.strip_width == 0.0;
-  bool const has_mesh = app.count("--size") > 0 || choice.elements > 0 || is_uniform || keeps_file;
+  bool const has_mesh = (has_size && !sizes_strip) || choice.elements > 0 || is_uniform || keeps_file;
+  double const own_size = choice.size;
   double const scale = choice.scale();
-  if (app.count("--size") == 0) choice.size = of_file ? choice.mesh_size : scale * choice.size;
+  if (!has_size) choice.size = of_file ? choice.mesh_size : scale * choice.size;
   if (!has_length) choice.length *= scale;
   if ((has_mesh || app.count("--quick") > 0) && !has_length) choice.length = scale * long_length;
   if (has_mesh && of_file && !has_length)
@@ -128,6 +134,7 @@ inline void choose_length_and_sizes(CLI::App& app, Choice& choice) {
         "a shorter one, from a tenth of the depth down",
         choice.length, choice.depth);
   if (!has_mesh) choose_strip<Element>(choice);
+  if (sizes_strip) choice.size = own_size;
   if (of_file && rank() == 0) tell_of_mesh(choice);
   if (!of_file && app.count("--length") > 0 && rank() == 0) warn_of_coarse_mesh(choice);
   auto const record = [&](char const* option, double value) {
