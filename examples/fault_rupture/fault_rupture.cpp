@@ -287,10 +287,7 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
 void warn_of_unused(CLI::App const& app, Choice const& choice) {
   using namespace fault_rupture;
   auto const unused = [&](bool nothing_uses, char const* why, std::initializer_list<char const*> options) {
-    for (auto const* option : options) {
-      if (nothing_uses && app.count(option) > 0)
-        examples::print(stderr, "warning: {} has no effect ({}): leave it out\n", option, why);
-    }
+    if (nothing_uses) examples::warn_of_unused(app, why, options);
   };
   unused(choice.scene == Case::free, "the free field has no footing: --case",
          {"--footing", "--footing-centre", "--footing-width", "--bearing-pressure"});
@@ -305,6 +302,13 @@ void warn_of_unused(CLI::App const& app, Choice const& choice) {
           "--unbalanced-tolerance", "--device"});
   unused(choice.pattern != MeshPattern::jittered, "the mesh is not of --pattern jittered", {"--mesh-seed"});
   unused(choice.checkpoint.empty(), "there is no --checkpoint", {"--checkpoint-every"});
+  for (auto const& bound : choice.budget) {
+    bool const of_packings = bound.starts_with("volume=") && choice.soil != Soil::dem;
+    bool const of_water = bound.starts_with("water=") && !choice.water_table;
+    if (of_packings || of_water)
+      examples::print(stderr, "warning: --budget {} has no effect (the ground {}): leave it out\n", bound,
+                      of_packings ? "has no packings" : "is dry");
+  }
 }
 
 double max_displacement_gradient(fault_rupture::AnyScene const& scene) {

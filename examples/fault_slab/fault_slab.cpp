@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
   declare_options(app, choice, output);
   if (auto const code = examples::ended_by_options(app, argc, argv)) return *code;
   try {
+    if (choice.soil != Soil::dem) examples::warn_of_unused(app, "the ground has no packings", {"--grains", "--seed"});
     scarp::CheckpointFiles files({.folder = choice.checkpoint, .resume = choice.resume}, scene_lines(app));
     scarp::RunFolder folder({.folder = output.folder, .overwrite = output.overwrite},
                             examples::record_of("fault_slab", app), &files);

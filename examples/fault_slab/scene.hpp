@@ -85,6 +85,11 @@ inline Scene make_scene(Choice const& choice) {
   layer.strike = choice.strike;
   layer.strike_cells = choice.across;
   layer = layer.with_about<scarp::Hex8>(choice.elements);
+  if (choice.length > layer.depth)
+    scarp::reject(
+        "--length is {} m (the ground is {} m deep, so that a mean over this radius is that of the whole ground): "
+        "choose a shorter one, from a tenth of the depth down",
+        choice.length, layer.depth);
   bool const uniform = choice.slip == Slip::uniform;
   scene.fault.full_to = uniform ? choice.strike : 0.0;
   scene.fault.ends_at = uniform ? 2.0 * choice.strike : choice.strike;

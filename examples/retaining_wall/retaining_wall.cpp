@@ -47,6 +47,10 @@ int main(int argc, char** argv) {
                     choice.sand_file);
     if (!choice.sand_file.empty())
       choice.sand = examples::read_sand(choice.sand_file, choice.sand, examples::given_in(app));
+    if (choice.soil == Soil::mohr_coulomb) {
+      examples::warn_of_unused(app, "the ground has no packings", {"--grains", "--seed", "--preparation-friction"});
+      examples::warn_of_unused(app, "ground without packings runs on one thread", {"--threads"});
+    }
     scarp::RunFolder folder({.folder = output.folder, .overwrite = output.overwrite},
                             examples::record_of("retaining_wall", app));
     auto const outcomes = choice.soil == Soil::sand ? run_sand(choice) : run_mohr_coulomb(choice);

@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <iterator>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "print.hpp"
 #include "renamed_options.hpp"
 #include "scarp/io/text_lines.hpp"
 
@@ -119,6 +121,13 @@ inline void declare_config(CLI::App& app, std::string const& what = "file with l
   app.set_config("--config", "", what);
   app.config_formatter(std::make_shared<ConfigFile>(app));
   app.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+/// Names the options that were given and that nothing uses.
+inline void warn_of_unused(CLI::App const& app, char const* why, std::initializer_list<char const*> options) {
+  for (auto const* option : options) {
+    if (app.count(option) > 0) print(stderr, "warning: {} has no effect ({}): leave it out\n", option, why);
+  }
 }
 
 /// Why a folder cannot take results, or nothing. The folder itself, and what it lies in, are made when results are written.

@@ -176,7 +176,10 @@ def check_warnings():
                                ("grains of a soil without", {"--soil": "mohr_coulomb"}, "--grains has no effect"),
                                ("a footing of the free field", {"--soil": "mohr_coulomb", "--footing-width": "8"}, "--footing-width has no effect"),
                                ("a rupture near the side", {"--soil": "mohr_coulomb", "--dip": "30"}, "from an end of the ground"),
-                               ("a length", {"--length": "20", "--grains": "64"}, None)):
+                               ("a bound of packings", {"--soil": "mohr_coulomb", "--budget": "volume=0"}, "--budget volume=0 has no effect"),
+                               ("a bound of water", {"--soil": "mohr_coulomb", "--budget": "water=1e-9"}, "--budget water=1e-9 has no effect"),
+                               ("a mesh too coarse for a length", {"--soil": "mohr_coulomb", "--length": "20"}, "needs elements of at most 8.2 m"),
+                               ("a length", {"--length": "20", "--grains": "64", "--size": "8"}, None)):
         with tempfile.TemporaryDirectory() as scratch:
             code, said = run(FAULT, "--quick", *command(TINY, given), "--output", "out", folder=scratch)
             expect(code == 0, f"{title}: ended with {code}\n{said}")

@@ -73,6 +73,11 @@ with tempfile.TemporaryDirectory() as scratch:
 
     said, _ = run("--across", "0", code=2)
     expect("--across" in said, f"the message is {said}")
+    said, _ = run("--length", "30", code=2)
+    expect("--length is 30 m" in said and "25 m deep" in said, f"the message is {said}")
+    words = [program.resolve(), "--quick", "--soil", "mohr_coulomb", "--grains", "99", "--seed", "4", "--time-limit", "1e-6", "--output", "unused"]
+    said = subprocess.run(words, cwd=scratch, capture_output=True, text=True, timeout=120).stderr
+    expect("--grains has no effect" in said and "--seed has no effect" in said, f"the message is {said}")
     said, _ = run("--elements", "2", code=2)
     expect("2 elements" in said, f"the message is {said}")
 finish()
