@@ -98,11 +98,21 @@ inline nlohmann::ordered_json summary(Outcome const& outcome) {
   return json;
 }
 
+/// "ok", or why the first movement has stopped that did not come to its end.
+inline std::string status_of(std::vector<Outcome> const& outcomes) {
+  for (auto const& outcome : outcomes) {
+    if (!outcome.run.verdict.acceptable()) return std::string(name(outcome.run.verdict.reason));
+  }
+  return "ok";
+}
+
 /// \throws FileError
 inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes, scarp::RunFolder& own) {
   std::filesystem::path const& folder = own.path();
   own.begin();
-  nlohmann::ordered_json json{{"soil", choice.soil == Soil::sand ? "sand" : "mohr_coulomb"}, {"size", choice.size}};
+  std::string const status = status_of(outcomes);
+  nlohmann::ordered_json json{
+      {"status", status}, {"soil", choice.soil == Soil::sand ? "sand" : "mohr_coulomb"}, {"size", choice.size}};
   if (choice.soil == Soil::sand) {
     json["grains"] = choice.sand.grains;
     json["seed"] = choice.sand.seed;
@@ -128,7 +138,7 @@ inline void write_all(Choice const& choice, std::vector<Outcome> const& outcomes
   }
   json["run"] = examples::json_of(own.record());
   examples::write_json(folder / "summary.json", json);
-  own.end("finished");
+  own.end(status == "ok" ? "finished" : status);
 }
 
 }  // namespace retaining_wall

@@ -17,6 +17,7 @@ from expectations import expect, finish
 programs = pathlib.Path(os.environ.get("SCARP_EXAMPLES", "nowhere")).resolve()
 FAULT = ["fault_rupture", "--quick", "--size", "12", "--throw-over-depth", "0.01", "--threads", "1"]
 SOIL = [*FAULT, "--soil", "mohr_coulomb"]
+STOPPING = ["--size", "2", "--grains", "20", "--seed", "5", "--preparation-friction", "2", "--strain", "0.03"]  # packings that lose their contacts
 LONG = ["fault_rupture", "--quick", "--size", "12", "--grains", "49", "--throw-over-depth", "1", "--frames", "100000"]
 TINY = {
     "rve_biaxial": ["rve_biaxial", "--grains", "60", "--seeds", "1", "--strain", "0.01", "--smoothing", "0.005",
@@ -115,6 +116,22 @@ def check_records(folder):
            f"fault_rupture: options {options}")
 
 
+def check_walls(folder):
+    """A wall that stops is recorded so; options of packings are told to have no effect on ground without."""
+    code, said = run(["retaining_wall", *STOPPING, "--output", "stopped"], folder)
+    state = json.loads((folder / "stopped/run.json").read_text())["state"]
+    summary = json.loads((folder / "stopped/summary.json").read_text())
+    reason = next((summary[movement]["status"] for movement in ("active", "passive") if summary[movement]["status"] != "ok"), "ok")
+    expect(code == 1 and "movement stopped at the strain" in said, f"a wall that stops: ended with {code}\n{said[-1000:]}")
+    expect(state == summary.get("status") == reason != "ok", f"it is recorded as {state}, {summary.get('status')}, {reason}")
+    unused = {"--grains": "50", "--seed": "7", "--preparation-friction": "0.3", "--threads": "2"}
+    words = [word for option in unused.items() for word in option]
+    code, said = run([*TINY["retaining_wall"], *words, "--output", "unused"], folder)
+    expect(code == 0 and all(f"{option} has no effect" in said for option in unused), f"ended with {code}\n{said}")
+    code, said = run([*TINY["retaining_wall"], "--output", "used"], folder)
+    expect(code == 0 and "no effect" not in said, f"ended with {code}\n{said}")
+
+
 def check_two_at_once(folder):
     with subprocess.Popen([programs / LONG[0], *LONG[1:], "--output", "out"], cwd=folder, stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE, text=True) as process:
@@ -191,7 +208,7 @@ if not all((programs / name).is_file() for name in ("fault_rupture", "rve_lab", 
                                                      "retaining_wall", "provider_swap")):
     print(f"skipped: no programs in {programs} (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for checks in ((check_resume,), (check_repeat, check_records), (check_two_at_once,), (check_folders,), (check_memory,),
+for checks in ((check_resume,), (check_repeat, check_records), (check_walls,), (check_two_at_once,), (check_folders,), (check_memory,),
                (check_values,), (check_material,)):
     with tempfile.TemporaryDirectory() as scratch:
         for check in checks:
