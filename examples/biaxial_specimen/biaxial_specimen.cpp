@@ -175,6 +175,16 @@ int run_mesh(Choice choice) {
   return run_file(choice, file.element_type());
 }
 
+/// Pictures and the error budget of an older test would be mixed up with the new ones.
+void remove_older_results(std::filesystem::path const& folder) {
+  for (auto const* name : {"error_budget.json", "fields.pvd"}) std::filesystem::remove(folder / name);
+  if (!std::filesystem::exists(folder / "fields")) return;
+  for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
+    std::string const name = file.path().filename().string();
+    if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
+  }
+}
+
 int run_test(Choice choice, examples::Output const& output, CLI::App const& app) {
   auto& grains = choice.grains;
   if (!grains.sand_file.empty())
@@ -184,10 +194,12 @@ int run_test(Choice choice, examples::Output const& output, CLI::App const& app)
                        examples::record_of("biaxial_specimen", app));
   choice.table = (own.path() / "table.csv").string();
   choice.fields = output.folder;
-  choice.begin = [&] { own.begin(); };
-  int const code = run_mesh(choice);
-  own.end(code == 0 ? "finished" : "exhausted");
-  return code;
+  choice.begin = [&] {
+    own.begin();
+    remove_older_results(own.path());
+  };
+  choice.end = [&](std::string const& state) { own.end(state); };
+  return run_mesh(choice);
 }
 
 }  // namespace

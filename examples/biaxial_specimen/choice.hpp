@@ -51,8 +51,9 @@ struct Choice {
   int halvings = 4;        ///< of a row's step before the test is given up
   int threads = 0;         ///< 0: all cores
   std::string table{};
-  std::string fields{};           ///< folder, empty for none
-  std::function<void()> begin{};  ///< called before anything is written
+  std::string fields{};                           ///< folder, empty for none
+  std::function<void()> begin{};                  ///< called before anything is written
+  std::function<void(std::string const&)> end{};  ///< called with the reason of a test that stopped, or "finished"
   int frames = 20;
   std::vector<std::string> budget{};  ///< bounds of the error budget, part=bound; the others are the usual ones
 

@@ -179,13 +179,17 @@ scarp::RunReport compress(Choice const& choice, Specimen<Pores>& specimen, Budge
                     row, row * step, force, watch.iterations, watch.residual);
     watch.iterations = 0;
   };
+  auto const stopped = [&](scarp::RunReport const& report) {
+    if (watch.series) watch.series->ended(problem, report.load);
+    return report;
+  };
   auto report = stepping.settle(solver, problem, 0.0, watch);
-  if (!report.verdict.acceptable()) return report;
+  if (!report.verdict.acceptable()) return stopped(report);
   write(0);
   typename Solver::template Session<typename Specimen<Pores>::Problem> session(solver, problem);
   for (int row = 1; row <= choice.steps; ++row) {
     report = stepping.advance(session, problem, (row - 1) * step, row * step, watch);
-    if (!report.verdict.acceptable()) return report;
+    if (!report.verdict.acceptable()) return stopped(report);
     write(row);
   }
   return report;
@@ -209,6 +213,7 @@ int run_with(Choice const& choice) {
                             {.pressure_floor = choice.effective() / 100.0});
   auto const report = compress(choice, specimen, budget);
   report_budget(choice, budget.parts());
+  if (choice.end) choice.end(report.verdict.acceptable() ? "finished" : std::string(name(report.verdict.reason)));
   if (report.verdict.acceptable()) return 0;
   examples::print(
       stderr,

@@ -3,9 +3,11 @@
 agree with one another and with the packing alone, dry and full of water, whatever the number of threads; bad input gets a
 message and a non-zero exit. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
+import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -148,6 +150,19 @@ def check_exhaustion(folder):
     code, said = compress(folder, "Tri3", "--iterations", 1, "--max-halvings", 0)
     expect(code == 3 and "iterations" in said, f"one iteration: ended with {code}\n{said}")
     expect(len(read(folder / "out.csv")[1]) == 1, "the row at rest is not kept")
+    own = ["--columns", 1, "--rows", 1, "--packings", 1, "--grains", 60, "--frames", 1, "--output", "own", "--overwrite"]
+    (folder / "own" / "fields").mkdir(parents=True)
+    for name in ("fields/step_0099.vtu", "fields/notes.txt"):
+        (folder / "own" / name).write_text("old\n")
+    code, said = run("biaxial_specimen", *own, "--steps", 30, "--axial-strain-step", 3e-3, "--iterations", 4, "--residual", 1e-5,
+                     "--max-halvings", 0, folder=folder)
+    expect(code == 3 and "step_too_small" in said, f"four iterations: ended with {code}\n{said}")
+    last = read(folder / "own" / "table.csv")[1][-1]["axial_strain"]
+    drawn = [float(time) for time in re.findall(r'timestep="([^"]*)"', (folder / "own" / "fields.pvd").read_text())]
+    expect(last > 0.0 and math.isclose(drawn[-1], last), f"the last accepted state is at {last}, pictures at {drawn}")
+    expect(json.loads((folder / "own" / "run.json").read_text())["state"] == "step_too_small", "run.json does not name the reason")
+    left = {path.name for path in (folder / "own" / "fields").iterdir()}
+    expect("step_0099.vtu" not in left and "notes.txt" in left, f"pictures of an older test: {left}")
 
 
 def check_refusals(folder):
