@@ -26,7 +26,9 @@ auto moved(scarp::ElementShapes<scarp::Quad4, cell_points> shapes, Nodal const& 
   return shapes;
 }
 
-dealii::Vector<double> entries(Nodal const& rows) { return {rows.data(), rows.data() + rows.size()}; }
+dealii::Vector<double> entries(Nodal const& rows) {
+  return dealii::Vector<double>(rows.data(), rows.data() + rows.size());
+}
 
 }  // namespace
 

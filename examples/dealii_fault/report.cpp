@@ -15,7 +15,7 @@ void Ground::report(bool complete) {
   std::map<double, scarp::SurfacePoint> mine, surface;  // by place at the start
   for (auto const& cell : dofs_.active_cell_iterators()) {
     if (!cell->is_locally_owned() || !cell->face(3)->at_boundary()) continue;
-    for (unsigned const vertex : {2, 3}) {
+    for (unsigned const vertex : {2U, 3U}) {
       auto const x = cell->vertex_dof_index(vertex, 0), y = cell->vertex_dof_index(vertex, 1);
       double const at = cell->vertex(vertex)[0];
       mine[at] = {at + rest(x), at + now(x), rest(y) - now(y)};

@@ -56,9 +56,8 @@ struct Call {
       scarp::reject("PROPS({}) is {} (a whole number is expected): correct it", number, value);
     return static_cast<int>(value);
   }
-  double surface() const {
-    return props && nprops && *nprops >= 4 ? scarp::require_finite("PROPS(4), the surface,", props[3]) : 0.0;
-  }
+  bool has_surface() const { return props && nprops && *nprops >= 4; }
+  double surface() const { return has_surface() ? scarp::require_finite("PROPS(4), the surface,", props[3]) : 0.0; }
 };
 
 /// CMNAME ends at its first blank. A host that gives PROPS(1) need not have one.
@@ -144,15 +143,15 @@ Tensor3 increment_of(Call const& call, Components const& components, State const
     Matrix const before(given(call.dfgrd0, "DFGRD0")), after(given(call.dfgrd1, "DFGRD1"));
     return (after - before) * before.inverse();  // exactly zero without an increment
   }
-  Tensor3 const strain = source == 0 ? components.strain_tensor(given(call.dstran, "DSTRAN"))
-                         : start     ? Tensor3(total - start->strain)
-                                     : total;
   Tensor3 const turn = call.drot ? Tensor3(Matrix(call.drot)) : Tensor3(Tensor3::Identity());
   constexpr double round_off = 1e-4;  // of a host in single precision, over an analysis
   if (double const off = (turn * turn.transpose() - Tensor3::Identity()).norm(); !(off <= round_off))
     scarp::reject("DROT is no rotation (DROT times its transpose is {:.3g} off the identity): pass a rotation, or null",
                   off);
-  return gradient_of(strain, turn);
+  if (!(turn.determinant() > 0.0)) scarp::reject("DROT is a reflection: pass a rotation, or null");
+  if (source == 0) return gradient_of(components.strain_tensor(given(call.dstran, "DSTRAN")), turn);
+  // The host has turned the strain before.
+  return gradient_of(start ? Tensor3(total - turn * start->strain * turn.transpose()) : total, turn);
 }
 
 template <int Dim>
@@ -195,6 +194,7 @@ void call_material(Call const& call, std::string const& file, scarp::AnyProvider
   if (!increment.allFinite())
     scarp::reject("the increment of a point of '{}' is not finite: take a smaller step", file);
   double const height = call.coords ? call.coords[ntens == 6 ? 2 : 1] : call.surface();
+  if (!start && call.has_surface()) scarp::require_below_surface(call.surface() - height);
   double const depth = std::max(call.surface() - height, 0.0);
   std::string const request = request_of(file, start, depth, increment, total);
   auto outcome = session()->memory.find(request);

@@ -154,7 +154,7 @@ struct ResponseOptions {
   template <class Sand>
   scarp::AnyProvider<Sand::dim> floored(Sand sand) const {
     if (stiffness_floor == 0.0) return sand;
-    return scarp::StiffnessFloor{.provider = std::move(sand), .share = stiffness_floor};
+    return scarp::StiffnessFloor<Sand>{.provider = std::move(sand), .share = stiffness_floor};
   }
 };
 

@@ -80,6 +80,31 @@ void check_rotation(void) {
         NULL, NULL, NULL, NULL, &three, &hundred, props, &one, NULL, stretched, NULL, NULL, NULL, NULL, NULL, NULL,
         NULL, NULL, NULL, NULL);
   check("a DROT that stretches is rejected with a reason", 1.0, found[0] != found[0] && reports("DROT is no rotation"));
+  double const mirror[9] = {-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  umat_(found, statev, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, still, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL, &three, &hundred, props, &one, NULL, mirror, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL);
+  check("a DROT that reflects is rejected with a reason", 1.0, found[0] != found[0] && reports("DROT is a reflection"));
+  /* With increments from STRAN, which the host has turned. */
+  double const by_total[3] = {ELASTIC, 0.0, 1.0}, xx = strain[0], yy = strain[1], xy = strain[2] / 2.0;
+  double const turned[3] = {c * c * xx + s * s * yy - 2.0 * c * s * xy, s * s * xx + c * c * yy + 2.0 * c * s * xy,
+                            2.0 * (c * s * (xx - yy) + (c * c - s * s) * xy)};
+  double fresh[100] = {0.0};
+  umat_(found, fresh, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, still, strain, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL, &three, &hundred, by_total, &three, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL);
+  umat_(found, fresh, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, turned, still, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL, &three, &hundred, by_total, &three, NULL, turn, NULL, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL);
+  double const off = apart(found, known, 3);
+  check("so it does with increments from STRAN, within 1e-8", off, off < 1e-8);
+  double const level[4] = {ELASTIC, 0.0, 0.0, 0.0}, coords[3] = {0.0, 5.0, 0.0};
+  double above[100] = {0.0};
+  int const four = 4;
+  umat_(found, above, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, still, strain, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL, NULL, &three, &hundred, level, &four, coords, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
+        NULL, NULL, NULL);
+  check("a point above the surface is rejected with a reason", 5.0, found[0] != found[0] && reports("5 m above"));
 }
 
 /* A material in space as plane strain, y vertical: the stresses of the plane, and the stress out of it. */

@@ -257,6 +257,19 @@ TEST_CASE("a UMAT receives the size and number of its element, and of its point 
   CHECK(umat.respond(alone, shear<2>(1e-3), end).stress == scarp::VoigtStress<2>(1.0, 7.0, 1.0));
 }
 
+TEST_CASE("what a UMAT receives of a place belongs to the point, wherever its state comes from") {
+  scarp::SerialExecutor serial;
+  std::vector<scarp::Site<2>> const sites{{.index = 0, .element = 0, .place = 0, .size = 2.0},
+                                          {.index = 1, .element = 4, .place = 3, .size = 0.5}};
+  for (bool const by_copy : {true, false}) {
+    scarp::MaterialPoints<2> points(odd(9.0), sites);
+    by_copy ? points.copy(1, points, 0) : points.unpack(1, points.pack(0));
+    for (int k = 0; k < 2; ++k) points.gradient(k) = shear<2>(1e-3);
+    REQUIRE(points.respond(serial).verdict.acceptable());
+    CHECK(points.stress(1) == scarp::VoigtStress<2>(0.5, 5.0, 4.0));
+  }
+}
+
 TEST_CASE("a UMAT that loses its tangent, requests a step of NaN or leaves its arrays is found out") {
   auto const umat = [](double wish) {
     return scarp::UmatProvider<2>{

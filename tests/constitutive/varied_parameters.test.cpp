@@ -78,3 +78,21 @@ TEST_CASE("points of varied providers refine their plans by their own provider")
   auto const plan = varied.plan(varied.initial_state({}), provider_laws::ordinary_increment<2>(2e-4));
   CHECK(static_cast<long>(varied.refined(plan)) == 3 * static_cast<long>(plan));
 }
+
+TEST_CASE("a state that goes to another point is that of a material with the parameters there") {
+  scarp::SerialExecutor serial;
+  using Elastic = scarp::LinearElastic<2>;
+  scarp::VariedParameters<Elastic> const soil{{}, [](Elastic const&, scarp::Site<2> const& site) {
+                                                return Elastic::from_young_poisson(site.index == 0 ? 1e6 : 5e6, 0.3);
+                                              }};
+  std::vector<scarp::Site<2>> const sites{{.index = 0}, {.index = 1}};
+  scarp::MaterialPoints<2> copied(soil, sites), unpacked(soil, sites);
+  copied.copy(1, copied, 0);
+  unpacked.unpack(1, unpacked.pack(0));
+  for (auto* const points : {&copied, &unpacked}) {
+    for (int k = 0; k < 2; ++k) points->gradient(k)(0, 0) = 1e-3;
+    REQUIRE(points->respond(serial).verdict.acceptable());
+  }
+  CHECK(copied.stress(1) == unpacked.stress(1));
+  CHECK(copied.stress(1)(0) == samples::Approx(5.0 * copied.stress(0)(0)));
+}

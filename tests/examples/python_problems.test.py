@@ -227,14 +227,14 @@ expect(analysis.picture(0)["grains"].shape == (40, 6) and "coordination" in anal
 expect(abs(analysis.displacement("top", 0) / 0.0075 - 1.0) < 1e-12, f"the top is at {analysis.displacement('top', 0)} at the load factor 1.5")
 
 # A step of the size of round-off, between two that are not, leaves the next one as it would be.
-sheared = scarp.Model(scarp.box_mesh("quad8", [1.0, 1.0], [2, 2]), kinematics="small_strain")
-sheared.fix(["left", "right"], 0)
-sheared.fix("bottom")
-sheared.move("top", 1, -0.004)
-sheared.material("soil", scarp.discs(grains=60, packings=2, thickness=1.0))
+squeezed = scarp.Model(scarp.box_mesh("quad8", [1.0, 1.0], [2, 2]), kinematics="small_strain")
+squeezed.fix(["left", "right"], 0)
+squeezed.fix("bottom")
+squeezed.move("top", 1, -0.004)
+squeezed.material("soil", scarp.discs(grains=60, packings=2, thickness=1.0))
 steps = []
 for loads in ([0.3, 0.4], [0.3, 0.1 + 0.2, 0.4], [0.3, 0.3 + 1e-7, 0.4]):
-    analysis = scarp.Analysis(sheared)
+    analysis = scarp.Analysis(squeezed)
     runs = [analysis.to(load) for load in loads]
     steps.append((runs[-1].steps, runs[-1].refused))
 expect(0.1 + 0.2 > 0.3 and steps[0] == steps[1] == steps[2], f"steps and refused ones after a tiny step: {steps}")

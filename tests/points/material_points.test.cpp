@@ -242,6 +242,19 @@ TEST_CASE("answers of which one is missing are not committed") {
   CHECK_REFUSED(points.commit(), "respond first");
 }
 
+TEST_CASE("answers to other gradients than the present ones are not committed") {
+  scarp::SerialExecutor serial;
+  Points points(samples::Softening{}, numbered(2));
+  for (int k = 0; k < 2; ++k) points.gradient(k)(0, 0) = 1e-3;
+  static_cast<void>(points.respond(serial));
+  points.evaluate_committed(serial);
+  CHECK_REFUSED(points.commit(), "respond first");
+  for (int k = 0; k < 2; ++k) points.gradient(k)(0, 0) = 1e-3;
+  static_cast<void>(points.respond(serial));
+  points.set_gradients(std::vector<scarp::Gradient<2>>(2, scarp::Gradient<2>::Zero()), serial);
+  CHECK_REFUSED(points.commit(), "respond first");
+}
+
 TEST_CASE("answers are the same bits on any number of threads, of one batch or of several") {
   auto const grid = ground_with_footing();
   auto const stresses = [&](auto&& executor, Points points) {

@@ -13,6 +13,7 @@
 #include "scarp/points/material_points.hpp"
 #include "scarp/points/nonlocal.hpp"
 #include "scarp/points/point_file.hpp"
+#include "scarp/points/region.hpp"
 #include "scarp/rve/dem_rve.hpp"
 #include "scarp/rve/packings_by_depth.hpp"
 #include "support/files.hpp"
@@ -264,6 +265,20 @@ TEST_CASE("states go between points that see each other and points too far apart
   CHECK(far.committed_stress(0) == close.committed_stress(2));
   far.unpack(1, close.pack(0));
   CHECK(far.committed_stress(1) == close.committed_stress(0));
+}
+
+TEST_CASE("a point without means is taken out from among points of which some have means") {
+  auto const sites = in_a_row(4);
+  std::vector<scarp::Site<2>> places(sites.begin(), sites.end());
+  places[3].region = 1;
+  std::vector<double> const volumes(4, 0.1);
+  std::vector<std::string> const names{"soil", "rock"};
+  std::vector<scarp::Region<scarp::AnyProvider<2>>> const regions{
+      {"soil", scarp::Nonlocal{nestings::Loosening{}, 0.25}}, {"rock", nestings::Loosening{}}};
+  auto points = scarp::points_of_regions<2>(regions, names, places, volumes, [](int) { return true; });
+  strain(points, [](int k) { return increment(1e-5 * (k + 1)); });
+  for (int const k : {0, 3}) CHECK(points.extract(k, points.pack(k)).committed_stress(0) == points.committed_stress(k));
+  CHECK_REFUSED(points.extract(3, points.pack(std::vector{3, 0})), "more than the state of a point");
 }
 
 TEST_CASE("two processes that exchange the gradients of points near their border see the same means as one") {

@@ -3,10 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <functional>
 #include <optional>
+#include <stdexcept>
 
 #include "scarp/constitutive/stiffness_floor.hpp"
 #include "scarp/constitutive/varied_parameters.hpp"
+#include "scarp/core/interruption.hpp"
 #include "scarp/points/material_points.hpp"
 #include "scarp/rve/random_packings.hpp"
 #include "scarp/solver/thread_executor.hpp"
@@ -265,4 +268,61 @@ TEST_CASE("a device that responds otherwise than the processor is refused") {
   CHECK_THROWS_WITH_AS(on_device.initial_state({}), doctest::Contains("write `constexpr` before every function"),
                        scarp::InputError);
   CHECK_THROWS_WITH_AS((OnDevice{rve(), nullptr}.initial_state({})), doctest::Contains("no device"), scarp::InputError);
+}
+
+TEST_CASE("a state of a point with another law goes on by the law of its new point") {
+  scarp::SerialExecutor serial;
+  auto const device = std::make_shared<Processor>();
+  Rve const soft = rve();
+  Rve hard = soft;
+  hard.law.tangential_stiffness *= 30.0;
+  std::vector<int> const of{0, 1};
+  std::vector<scarp::MaterialPoints<2>> found;
+  for (bool const on_device : {false, true}) {
+    using Any = scarp::AnyProvider<2>;
+    std::vector<Any> const materials{on_device ? Any(OnDevice{soft, device}) : Any(soft),
+                                     on_device ? Any(OnDevice{hard, device}) : Any(hard)};
+    scarp::MaterialPoints<2> points(materials, of, sites(2), {}, [](int) { return true; });
+    for (int step = 0; step < 2; ++step) {
+      for (int k = 0; k < 2; ++k) points.gradient(k) = increment(1e-4);
+      REQUIRE(points.respond(serial).verdict.acceptable());
+      points.commit();
+      if (step == 0) points.copy(1, points, 0);
+    }
+    found.push_back(points);
+  }
+  CHECK(difference(found[0], found[1]) < 1e-9);
+  CHECK((found[0].committed_tangent(1) - found[1].committed_tangent(1)).norm() <
+        1e-9 * found[0].committed_tangent(1).norm());
+}
+
+TEST_CASE("points with parameters of their own respond by these without a plan too") {
+  scarp::SerialExecutor serial;
+  scarp::VariedParameters<OnDevice> const soil{OnDevice{rve(), std::make_shared<Processor>()},
+                                               [](OnDevice own, scarp::Site<2> const& site) {
+                                                 own.rve.law.friction = site.index == 0 ? 0.2 : 0.6;
+                                                 return own;
+                                               }};
+  std::vector<std::vector<scarp::VoigtStress<2>>> found;
+  for (bool const is_planned : {true, false}) {
+    scarp::MaterialPoints<2> points(soil, sites(2));
+    points.set_gradients(std::vector(2, increment(5e-4)), serial);
+    if (is_planned) points.plan();
+    REQUIRE(points.evaluate(serial).verdict.acceptable());
+    found.push_back(points.stresses());
+  }
+  CHECK(found[0][0] != found[0][1]);
+  CHECK(found[0] == found[1]);
+}
+
+TEST_CASE("after a response that was interrupted the tangent is that of the committed packing") {
+  scarp::SerialExecutor serial;
+  scarp::MaterialPoints<2> points(OnDevice{rve(), std::make_shared<Processor>()}, sites(1));
+  points.gradient(0) = increment(1e-4);
+  std::function<void()> const stop = [] { throw std::runtime_error("stopped"); };
+  {
+    scarp::InterruptionCheck const check(&stop);
+    CHECK_THROWS_WITH(static_cast<void>(points.respond(serial)), "stopped");
+  }
+  CHECK(points.tangent(0) == points.committed_tangent(0));
 }

@@ -105,9 +105,11 @@ class Frames:
     Parameters
     ----------
     values : callable
-        values(analysis) gives numbers of the elements or points; by default their shear strain.
+        values(analysis) gives numbers of the elements, points or nodes; by default their shear strain.
     label : str
         Of the colours.
+    at : str
+        Of which the numbers are, "elements", "points" or "nodes", where a mesh has as many of two.
 
     Examples
     --------
@@ -124,8 +126,9 @@ class Frames:
     >>> _ = frames.animation().to_jshtml()
     """
 
-    def __init__(self, values: Optional[Callable[[Analysis], npt.ArrayLike]] = None, label: str = "shear strain") -> None:
+    def __init__(self, values: Optional[Callable[[Analysis], npt.ArrayLike]] = None, label: str = "shear strain", at: Optional[str] = None) -> None:
         self._values = values or Analysis.shear_strains
+        self._at = at if values else "points"
         self._label = label
         self._analysis: Optional[Analysis] = None
         self.steps: List[Tuple[float, Floats, Floats]] = []
@@ -135,7 +138,7 @@ class Frames:
             return
         shown = np.asarray(self._values(analysis), dtype=float)
         self._analysis = analysis
-        self.steps.append((step.load, analysis.positions, analysis._of_elements(shown)))
+        self.steps.append((step.load, analysis.positions, analysis._of_elements(shown, self._at)))
 
     def animation(self, interval: float = 100.0) -> Any:
         """The steps one after the other, each for `interval` [ms]; in a notebook HTML(frames.animation().to_jshtml()).
@@ -148,7 +151,7 @@ class Frames:
             raise ValueError("no load step was accepted while these frames observed (nothing is to be drawn): give them to Analysis.to")
         from matplotlib.animation import FuncAnimation
 
-        axes = self._analysis.plot(self.steps[-1][2], self._label)
+        axes = self._analysis.plot(self.steps[-1][2], self._label, at="elements")
         cells = axes.collections[0]
         ends = [float(end) for _, _, values in self.steps for end in (values.min(), values.max())]
         cells.set_clim(min(0.0, *ends), max(0.0, *ends))

@@ -80,6 +80,14 @@ template <int Dim, class InitialStress = StressFree<Dim>>
 struct UmatProvider {
   static constexpr int dim = Dim;
 
+  /// Where a point is.
+  struct Place {
+    Vector<3> position = Vector<3>::Zero();  ///< COORDS [m]
+    int element = 1;                         ///< NOEL; where there is none, the point's number
+    int number = 1;                          ///< in the element, NPT
+    double size = 1.0;                       ///< of the element, CELENT [m]
+  };
+
   /// What a UMAT reads and writes at a point.
   struct State {
     VoigtStress<3> stress = VoigtStress<3>::Zero();              ///< [Pa]
@@ -87,13 +95,10 @@ struct UmatProvider {
     std::vector<double> variables{};                             ///< STATEV
     Tensor<3> deformation = Tensor<3>::Identity();               ///< DFGRD0
     double time = 0.0;                                           ///< [s]
-    Vector<3> position = Vector<3>::Zero();                      ///< COORDS [m]
-    int element = 1;                                             ///< NOEL; where there is none, the point's number
-    int place = 1;                                               ///< in the element, NPT
-    double size = 1.0;                                           ///< of the element, CELENT [m]
+    Place place{};                                               ///< of the point, which is not saved
     VoigtTangent<Dim> tangent = VoigtTangent<Dim>::Zero();       ///< of the increment that led here [Pa]
 
-    SCARP_MEMBERS(stress, strain, variables, deformation, time, position, element, place, size, tangent)
+    SCARP_MEMBERS_EXCEPT((place), stress, strain, variables, deformation, time, tangent)
   };
 
   Umat* umat = nullptr;               ///< address of the subroutine
@@ -119,13 +124,9 @@ struct UmatProvider {
              Dim == 2 ? "4, or 6 of one for space, are" : "6 are");
     VoigtStress<Dim> const start = initial_stress<Dim>(initial, site);
     Tensor<3> const stress = in_space<Dim>(from_voigt_stress<Dim, double>(start), start(0));
-    State state;
+    State state = empty_state(site);
     state.stress = to_voigt_stress<3, double>(stress);
     state.variables = variables;
-    state.position.template head<Dim>() = site.position;
-    state.element = 1 + (site.element < 0 ? site.index : site.element);
-    state.place = 1 + site.place;
-    state.size = site.size;
     State tried = state;
     if (!call(tried, state.deformation, Tensor<3>::Identity(), Tensor<3>::Zero()).acceptable())
       reject(
@@ -143,6 +144,16 @@ struct UmatProvider {
           "become "
           "{:.6g}, {:.6g}, {:.6g}): let it add to STRESS, or give an initial stress that its material can bear",
           name, state.stress(0), state.stress(1), state.stress(2), tried.stress(0), tried.stress(1), tried.stress(2));
+    return state;
+  }
+
+  /// Of a point that is there.
+  State empty_state(Site<Dim> const& site) const {
+    State state;
+    state.place.position.template head<Dim>() = site.position;
+    state.place.element = 1 + (site.element < 0 ? site.index : site.element);
+    state.place.number = 1 + site.place;
+    state.place.size = site.size;
     return state;
   }
 
@@ -214,19 +225,19 @@ struct UmatProvider {
     copy(to_engineering_strain<3, double>(total), stran.data());
     copy(to_engineering_strain<3, double>(strain), dstran.data());
     std::fill_n(time.data(), 2, state.time);
-    std::copy_n(state.position.data(), 3, coords.data());
+    std::copy_n(state.place.position.data(), 3, coords.data());
     std::copy_n(turn.data(), 9, drot.data());
     std::copy_n(before.data(), 9, dfgrd0.data());
     std::copy_n(state.deformation.data(), 9, dfgrd1.data());
     double sse = 0.0, spd = 0.0, scd = 0.0, rpl = 0.0, drpldt = 0.0, temp = 0.0, dtemp = 0.0;
-    double pnewdt = 1.0, celent = state.size, dtime = time_step;
+    double pnewdt = 1.0, celent = state.place.size, dtime = time_step;
     std::array<char, name_length> cmname;
     cmname.fill(' ');
     std::ranges::transform(name, cmname.begin(), [](char letter) {
       return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
     });
     int ndi = 3, nshr = components - 3, ntens = components, nstatv = detail::count(state.variables);
-    int nprops = detail::count(properties), npt = state.place, layer = 1, kspt = 1, noel = state.element;
+    int nprops = detail::count(properties), npt = state.place.number, layer = 1, kspt = 1, noel = state.place.element;
     std::array<int, 4> kstep{1, 0, 0, 0};
     int kinc = 1 + static_cast<int>(std::lround(state.time / time_step));
     umat(stress.data(), statev.data(), ddsdde.data(), &sse, &spd, &scd, &rpl, ddsddt.data(), drplde.data(), &drpldt,

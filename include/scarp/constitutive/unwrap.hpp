@@ -29,6 +29,15 @@ decltype(auto) unwrap(Provider const& provider, State& state, Visit&& visit) {
   }
 }
 
+/// Gives a state what belongs to its point and not to its history, from another state of that point: a provider of the
+/// point's own, and a member `place`.
+template <class State>
+void keep_place(State& state, State const& of_point) {
+  if constexpr (requires { *state.provider; }) state.provider = of_point.provider;
+  if constexpr (requires { state.place; }) state.place = of_point.place;
+  if constexpr (requires { state.own; }) keep_place(state.own, of_point.own);
+}
+
 /// Named numbers of a material point, which a provider returns by `Quantities quantities(State const&) const`.
 using Quantities = std::vector<std::pair<std::string_view, double>>;
 

@@ -197,9 +197,8 @@ class StateReader {
   void operator()(std::string_view name, std::span<T> values) {
     expect_list<T>(name);
     std::size_t const length = take_length(name, element_bytes<T>());
-    if (length != values.size()) {
+    if (length != values.size())
       reject("it has {} '{}' (the scene has {}): load it into the scene that was saved", length, name, values.size());
-    }
     elements(name, values);
   }
   /// Resized to the stored length; columns with their padding.
@@ -270,6 +269,8 @@ class StateReader {
     take(name, saved.data(), sizeof(char), letters);
     take(name, &bytes, sizeof(bytes));
     if (saved != name || bytes != element) {
+      std::ranges::replace_if(
+          saved, [](unsigned char letter) { return letter < ' ' || letter > '~'; }, '?');
       reject("it has '{}' of {} bytes where '{}' of {} bytes should be: load it as the type that was saved", saved,
              bytes, name, element);
     }
@@ -279,9 +280,8 @@ class StateReader {
   std::size_t take_length(std::string_view name, std::size_t bytes) {
     std::uint64_t length = 0;
     take(name, &length, sizeof(length));
-    if (length > rest_.size() / bytes) {
+    if (length > rest_.size() / bytes)
       reject("'{}' has a length of {} (only {} bytes follow): save it again", name, length, rest_.size());
-    }
     return static_cast<std::size_t>(length);
   }
 

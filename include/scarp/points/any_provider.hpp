@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/points/detail/point_batch.hpp"
+#include "scarp/points/detail/point_batch_of.hpp"
 #include "scarp/points/point_means.hpp"
 
 namespace scarp {

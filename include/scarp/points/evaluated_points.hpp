@@ -29,6 +29,7 @@ void MaterialPoints<Dim>::set_gradients(Gradients own, Executor const& executor)
   if (std::ssize(own) != size())
     reject("{} displacement gradients are given for {} points: give one to each", own.size(), size());
   own_ = std::move(own);
+  has_trial_ = false;  // trial states belong to other gradients
   seen_ = means_ ? means_->average(own_, executor) : own_;
 }
 

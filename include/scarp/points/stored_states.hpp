@@ -69,7 +69,7 @@ void MaterialPoints<Dim>::copy(int to, MaterialPoints const& from, int point, bo
     mirror = {principal_direction<Dim>(from.committed_stress(point) + state.tau)};
     state.tau = mirrored_stress<Dim>(state.tau, mirror->normal);
   }
-  put(std::span(&to, 1), {{batch(to).state_from(from.batch(point), from.local(point), mirror), state}});
+  put(std::span(&to, 1), {{batch(to).state_from(local(to), from.batch(point), from.local(point), mirror), state}});
 }
 
 template <int Dim>
@@ -80,7 +80,11 @@ MaterialPoints<Dim> MaterialPoints<Dim>::extract(int point, std::string_view bit
   only.means_ = material(point).means_;
   one.add(0, 0);
   one.owned_ = {0};
-  one.unpack(0, bits);
+  StateReader reader(bits, &one.shared_);
+  auto states = read(std::span(&point, 1), reader);
+  if (!reader.at_end()) reject("it holds more than the state of a point: extract what was packed of one");
+  int const first = 0;
+  one.put(std::span(&first, 1), std::move(states));
   return one;
 }
 

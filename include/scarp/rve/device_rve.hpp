@@ -192,7 +192,7 @@ struct DeviceRve {
     std::vector<Request const*> requested;
     std::vector<Request const*> for_processor;
     for (auto const& request : requests) {
-      request.trial->stored.reset();  // its memory serves the new state
+      request.trial->stored = request.committed->stored;  // its own memory serves the new state
       request.trial->evaluated.reset();
       auto const& committed = *request.committed;
       auto& outline = request.trial->outline;

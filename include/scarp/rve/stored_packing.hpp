@@ -61,7 +61,7 @@ class StoredPacking {
   /// needs is written there first if it is not there.
   std::pair<State, Header> on(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
     std::lock_guard const lock(mutex_);
-    if (device_ != device) {
+    if (device_ != device || !is_of(parameters.law)) {
       if (!is_here_) fetch();
       place(device, parameters);
     }
@@ -75,6 +75,12 @@ class StoredPacking {
   }
 
  private:
+  /// Whether list, critical step and stiffness are of this law: a state may come from a point of another one.
+  bool is_of(Law const& law) const {
+    auto const& pairs = packing_.pairs;
+    return pairs.basis.agrees_with(list_basis(packing_, law, pairs.skin));
+  }
+
   void fetch() const {
     AlignedVector<std::byte> bytes(State::bytes(size_));
     device_->read(bytes_.get(), bytes);

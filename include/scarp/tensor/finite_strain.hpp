@@ -53,9 +53,10 @@ template <int Dim>
 RotatedIncrement<Dim>::RotatedIncrement(Gradient<Dim> const& gradient) {
   Tensor<Dim> const identity = Tensor<Dim>::Identity();
   Tensor<Dim> const deformation = identity + gradient;
-  if (!gradient.allFinite()) {
+  double const growth = deformation.determinant();
+  if (!gradient.allFinite() || !std::isfinite(growth)) {
     verdict = {Status::failed, Reason::not_finite};
-  } else if (!(deformation.determinant() > 0.0)) {
+  } else if (!(growth > 0.0)) {
     verdict = {Status::failed, Reason::element_inverted};
   } else {
     turn = rotation_factor<Dim, double>(deformation);
