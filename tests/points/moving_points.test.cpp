@@ -278,7 +278,7 @@ TEST_CASE("a point without means is taken out from among points of which some ha
   auto points = scarp::points_of_regions<2>(regions, names, places, volumes, [](int) { return true; });
   strain(points, [](int k) { return increment(1e-5 * (k + 1)); });
   for (int const k : {0, 3}) CHECK(points.extract(k, points.pack(k)).committed_stress(0) == points.committed_stress(k));
-  CHECK_REFUSED(points.extract(3, points.pack(std::vector{3, 0})), "more than the state of a point");
+  CHECK_REFUSED(points.extract(3, points.pack(std::vector{3, 0})), "more than the states of 1 points");
 }
 
 TEST_CASE("two processes that exchange the gradients of points near their border see the same means as one") {

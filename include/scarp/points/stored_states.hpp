@@ -82,7 +82,7 @@ MaterialPoints<Dim> MaterialPoints<Dim>::extract(int point, std::string_view bit
   one.owned_ = {0};
   StateReader reader(bits, &one.shared_);
   auto states = read(std::span(&point, 1), reader);
-  if (!reader.at_end()) reject("it holds more than the state of a point: extract what was packed of one");
+  if (!reader.at_end()) reject("it holds more than the states of 1 points: extract what was packed of one");
   int const first = 0;
   one.put(std::span(&first, 1), std::move(states));
   return one;

@@ -48,7 +48,9 @@ class StoredPacking {
         device_(std::move(device)),
         bytes_(std::move(bytes)),
         size_(size),
-        header_(header) {}
+        header_(header),
+        basis_(packing_.pairs.basis),
+        skin_(packing_.pairs.skin) {}
 
   /// The packing, which is read from the device if it is not here.
   PackingType const& packing() const {
@@ -76,10 +78,7 @@ class StoredPacking {
 
  private:
   /// Whether list, critical step and stiffness are of this law: a state may come from a point of another one.
-  bool is_of(Law const& law) const {
-    auto const& pairs = packing_.pairs;
-    return pairs.basis.agrees_with(list_basis(packing_, law, pairs.skin));
-  }
+  bool is_of(Law const& law) const { return basis_.agrees_with(list_basis(packing_, law, skin_)); }
 
   void fetch() const {
     AlignedVector<std::byte> bytes(State::bytes(size_));
@@ -111,6 +110,8 @@ class StoredPacking {
         State(given.get(), size_), State(bytes_.get(), size_), device->grains(packing_.population), 0, {}};
     device->respond(std::span(&look, 1), parameters, std::span(&header_, 1));
     device_ = device;
+    basis_ = listed.pairs.basis;
+    skin_ = listed.pairs.skin;
   }
 
   mutable std::mutex mutex_;
@@ -120,6 +121,8 @@ class StoredPacking {
   mutable typename Device::Bytes bytes_;
   mutable BlockSize size_{};
   mutable Header header_{};
+  mutable ListBasis basis_{};   ///< of the list on the device
+  mutable double skin_ = -1.0;  ///< of that list [m]
 };
 
 }  // namespace scarp
