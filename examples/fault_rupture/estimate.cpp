@@ -210,7 +210,9 @@ std::string estimate(Choice const& choice, SceneSize const& size, int ranks, int
   if (!repeats_study(choice))
     text += "warning: the model is of the reference study's site; others took up to 2.3 times more or 1.5 times less\n";
   if (choice.water_table)
-    text += "warning: pore water is not in the model; runs with it took 1.4 to 3 times more, with a bound on its time error 40\n";
+    text +=
+        "warning: pore water is not in the model; runs with it took 1.4 to 3 times more, with a bound on its time "
+        "error 40\n";
   if (choice.soil == Soil::elastic) text += "warning: no elastic ground was measured\n";
   if (choice.sensitivity_runs) text += "sensitivity runs come on top: about one and a half to three times more\n";
   return text;
