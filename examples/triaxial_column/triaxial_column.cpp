@@ -5,6 +5,7 @@
 
 #include "../shared/command_line.hpp"
 #include "../shared/print.hpp"
+#include "../shared/run_options.hpp"
 #include "../shared/version_option.hpp"
 #include "column_test.hpp"
 #include "rve_test.hpp"
@@ -58,21 +59,8 @@ double compare(char const* name, Packing const& packing, std::vector<Row> const&
   return run.verdict.acceptable() ? worst_uniform : 1.0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Choice choice;
-  CLI::App app{"Triaxial compression of a column of packings, beside the same test on one packing"};
-  examples::declare_version(app);
-  app.add_option("--grains", choice.grains, "spheres in a packing")->check(CLI::Range(30, 2000));
-  app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
-  app.add_option("--strain", choice.strain, "shortening at the end")->check(examples::number_from(0.0, false, 0.2));
-  app.add_option("--load-step", choice.load_step, "largest shortening of a load step")
-      ->check(examples::number_from(0.0, false, 0.01));
-  app.add_option("--tolerance", choice.tolerance, "residual of a load step")
-      ->check(examples::number_from(0.0, false, 0.1));
-  app.option_defaults()->always_capture_default();
-  CLI11_PARSE(app, argc, argv);
+/// \return exit code: 0 where column and packing agree
+int run(Choice const& choice) {
   auto const prepared = consolidated(choice);
   if (!prepared.verdict.acceptable()) {
     examples::print(stderr, "the packing was not prepared ({}): try another seed\n",
@@ -85,4 +73,26 @@ int main(int argc, char** argv) {
   double const hexahedra = compare<scarp::Hex8>("Hex8", prepared.packing, alone, choice);
   double const tetrahedra = compare<scarp::Tet10>("Tet10", prepared.packing, alone, choice);
   return std::max(hexahedra, tetrahedra) < 0.02 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Choice choice;
+  CLI::App app{"Triaxial compression of a column of packings, beside the same test on one packing"};
+  examples::declare_version(app);
+  app.option_defaults()->always_capture_default();
+  app.add_option("--grains", choice.grains, "spheres in a packing")->check(CLI::Range(30, 2000));
+  app.add_option("--seed", choice.seed, "of the packing")->check(examples::seed_number());
+  app.add_option("--strain", choice.strain, "shortening at the end")->check(examples::number_from(0.0, false, 0.2));
+  app.add_option("--load-step", choice.load_step, "largest shortening of a load step")
+      ->check(examples::number_from(0.0, false, 0.01));
+  app.add_option("--tolerance", choice.tolerance, "residual of a load step")
+      ->check(examples::number_from(0.0, false, 0.1));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(choice);
+  } catch (std::exception const& problem) {
+    return examples::ended_by(problem, "triaxial_column", app);
+  }
 }
