@@ -172,6 +172,23 @@ TEST_CASE("points go on from a file as if they had not stopped, and a file that 
   CHECK(second.pack(all) == before);
 }
 
+TEST_CASE("a file whose states hold more than the points take is refused, and nothing has changed") {
+  samples::ScratchFolder const folder;
+  auto const file = folder / "points";
+  std::array const site{scarp::Site<3>{}};
+  auto const elasticity = scarp::IsotropicElasticity::from_young_poisson(20e6, 0.3);
+  scarp::MaterialPoints<3> soil(scarp::MohrCoulomb<3>{elasticity, {{.cohesion = 1e3, .friction = 0.5}}}, site);
+  scarp::MaterialPoints<3> elastic(scarp::LinearElastic<3>{elasticity}, site);
+  soil.gradient(0) = Gradient<3>::Identity() * 1e-5;
+  scarp::SerialExecutor serial;
+  REQUIRE(soil.respond(serial).verdict.acceptable());
+  soil.commit();
+  scarp::save_points(file, soil);
+  auto const before = elastic.pack(0);
+  CHECK_REFUSED(scarp::load_points(file, elastic), "more than the states of these 1 points");
+  CHECK(elastic.pack(0) == before);
+}
+
 TEST_CASE("points take no states that are not theirs, and then nothing has changed") {
   auto const sites = in_a_row(2);
   Points points(sand(), sites);

@@ -30,8 +30,13 @@ template <int Dim>
 void load_points(std::filesystem::path const& path, MaterialPoints<Dim>& points) {
   std::string const file = read_file(path);
   with_context(fmt::format("cannot load '{}'", path.string()), [&] {
+    auto loaded = points;
     StateReader reader(detail::payload_of(detail::points_format, file));
-    reader("points", points);
+    reader("points", loaded);
+    if (!reader.at_end())
+      reject("it holds more than the states of these {} points: load it into points of the providers that were saved",
+             points.size());
+    points = std::move(loaded);
   });
 }
 
