@@ -356,6 +356,7 @@ TEST_CASE("points take the packing of the nearest depth") {
     return column.at(site).cell(0, 0) / column.packings.front().cell(0, 0) - 1.0;
   };
   CHECK_REFUSED(chosen(-1.0), "1 m above the ground surface");
+  CHECK_REFUSED(chosen(std::numeric_limits<double>::infinity()), "inf m deep", "give it a depth");
   CHECK(chosen(0.0) == samples::Approx(0.0));
   CHECK(chosen(2.4) == samples::Approx(0.0));
   CHECK(chosen(2.6) == samples::Approx(5.0));

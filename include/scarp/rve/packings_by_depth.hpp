@@ -46,10 +46,10 @@ struct PackingsByDepth {
     }
   }
 
-  /// \throws InputError as validate() does, and for a point whose depth is no number or above the ground surface
+  /// \throws InputError as validate() does, and for a point whose depth is not finite or above the ground surface
   PackingType const& at(Site<PackingType::dim> const& site) const {
     validate();
-    if (std::isnan(site.depth)) reject("point {} lies {} m deep: give it a depth", site.index, site.depth);
+    if (!std::isfinite(site.depth)) reject("point {} lies {} m deep: give it a depth", site.index, site.depth);
     require_below_surface(site.depth);
     auto const nearest = std::min_element(depths.begin(), depths.end(), [&](double a, double b) {
       return std::abs(a - site.depth) < std::abs(b - site.depth);
