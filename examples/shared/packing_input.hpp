@@ -156,8 +156,11 @@ inline std::optional<double> only_value(scarp::CsvColumns const& contacts, std::
 }
 
 /// Name of the grains' shape, by their columns.
-/// \throws InputError where there are no sizes
+/// \throws InputError where there are no sizes, and for those of two shapes
 inline std::string shape_of(scarp::CsvColumns const& particles) {
+  if (particles.has("r") && particles.has("a") && particles.has("b"))
+    scarp::reject("'{}' has columns r and a, b (discs have r, ellipses a, b and angle): leave those of one out",
+                  particles.file());
   if (particles.has("r")) return "disc";
   if (particles.has("a") && particles.has("b")) return particles.has("eps") ? "superellipse" : "ellipse";
   scarp::reject("'{}' has no sizes of grains (columns r, or a, b and angle, or a, b, eps and angle): add them",
