@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """The curves of `rve_lab test`, with those of other runs and of laboratory tables."""
 
+import csv
 import pathlib
 
 import numpy as np
@@ -9,24 +10,44 @@ from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, PALE, PURPLE, SKY, V
 
 COLOURS = (VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 # Quantities by the names of a laboratory's columns, their factor to per cent, kPa and one.
-NAMES = {"strain": {"length": 100.0, "eps1_percent": 1.0, "eps1": 100.0, "axial_strain": 100.0, "gamma_percent": 1.0},
-         "volume": {"volumetric_strain": 100.0, "epsv_percent": 1.0, "epsv": 100.0},
+AXIAL = {"axial_strain": 100.0, "axial_strain_percent": 1.0, "eps1_percent": 1.0, "eps1": 100.0}
+NAMES = {"strain": {"length": 100.0, **AXIAL, "gamma_percent": 1.0},
+         "volume": {"volumetric_strain": 100.0, "volumetric_strain_percent": 1.0, "epsv_percent": 1.0, "epsv": 100.0},
          "q": {"q": 1e-3, "q_kPa": 1.0}, "p": {"p": 1e-3, "p_kPa": 1.0},
          "axial": {"axial_stress": 1e-3, "sigma1_kPa": 1.0, "sig1_kPa": 1.0},
          "lateral": {"lateral_stress": 1e-3, "sigma3_kPa": 1.0, "sig3_kPa": 1.0}, "void_ratio": {"void_ratio": 1.0, "e": 1.0}}
 
 
-def read_curves(path):
-    """Curves of a table, one for each point: {quantity: array}, NaN where the table does not have it."""
-    table = figures.read_csv(path, [])
+def read_laboratory(path):
+    """Columns of a laboratory's table, parted by commas, semicolons or tabs as `rve_lab calibrate` reads it."""
+    figures.require_file(path)
+    lines = [line for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip(" \t,;")]
+    parted = lines.pop(0)[4] if lines and len(lines[0]) == 5 and lines[0].startswith("sep=") else None
+    parted = parted or max(",;\t", key=lambda one: min((line.count(one) for line in lines[:2]), default=0))
+    header, *rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=parted)] or [[]]
+    for line, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise figures.InputError(f"'{path}', row {line}, has {len(row)} cells (its header has {len(header)}): give one to each column")
+    if not rows:
+        raise figures.InputError(f"'{path}' holds no rows (a curve has some): leave it out")
+    return {name: np.array([figures.number(row[k]) for row in rows]) for k, name in enumerate(header)}
+
+
+def read_curves(path, by_axial_strain=False):
+    """Curves of a table, one for each point: {quantity: array}, NaN where the table does not have it.
+    by_axial_strain: also of runs, as for paths of a table, whose length counts its rows."""
+    table = figures.read_csv(path, []) if path.name == "test.csv" else read_laboratory(path)
     count = len(next(iter(table.values())))
     curve = {}
     for quantity, names in NAMES.items():
+        names = {**AXIAL, **names} if quantity == "strain" and by_axial_strain else names
         name = next((name for name in names if name in table), None)
         curve[quantity] = table[name] * names[name] if name else np.full(count, np.nan)
-    if not any(np.isfinite(values).any() for values in curve.values()):
-        known = ", ".join(name for names in NAMES.values() for name in names)
-        raise figures.InputError(f"'{path}' has no column of a test (it has: {', '.join(table)}): name some of {known}")
+    for missing, quantities in (("strain", ["strain"]), ("stress, volumetric strain or void ratio", [name for name in NAMES if name != "strain"])):
+        if not any(np.isfinite(curve[quantity]).any() for quantity in quantities):
+            known = ", ".join(name for quantity in quantities for name in NAMES[quantity])
+            raise figures.InputError(f"'{path}' has no column of a {missing} (it has: {', '.join(table)}): name one of {known}")
+    curve["length"] = table.get("length", np.zeros(count))
     if is_cyclic(curve) and "shear_stress" in table:  # a deviator that changes sign with the direction
         shear = 2.0 * table["shear_stress"]
         axial = table["axial_stress"] - table["lateral_stress"] if {"axial_stress", "lateral_stress"} <= set(table) else np.zeros(count)
@@ -45,21 +66,29 @@ def is_cyclic(curve):
 
 
 def mean_of(curves):
-    """Over the tests that came farthest, as the summary has it."""
+    """Over the tests that came farthest, as the summary has it; without a last row where each ended at a length of its own."""
     count = max(len(curve["strain"]) for curve in curves)
     longest = [curve for curve in curves if len(curve["strain"]) == count]
-    return {name: np.mean([curve[name] for curve in longest], axis=0) for name in longest[0]}
+    ends = [curve["length"][-1] for curve in longest]
+    rows = slice(count - 1 if np.ptp(ends) > 1e-9 * np.max(np.abs(ends)) else count)
+    return {name: np.mean([curve[name][rows] for curve in longest], axis=0) for name in longest[0]}
+
+
+def is_of_table(path):
+    """Whether a test.csv is of a path of a table."""
+    return path.name == "test.csv" and figures.read_summary(path.parent).get("path") == "table"
 
 
 def laboratory(folder, overlays=()):
     summary = figures.read_summary(folder)
     overlays = [*summary.get("overlay", []), *overlays]
-    own = read_curves(folder / "test.csv")
+    places = [folder / "test.csv", *map(pathlib.Path, overlays)]
+    by_axial_strain = any(map(is_of_table, places))
+    own = read_curves(places[0], by_axial_strain)
     runs = [("this test", own, BLUE, "-")]
-    for path, colour in zip(overlays, COLOURS * len(overlays)):
-        path = pathlib.Path(path)
+    for path, colour in zip(places[1:], COLOURS * len(overlays)):
         name = f"{path.resolve().parent.name}/{path.name}" if path.name == "test.csv" else path.stem
-        runs.append((name, read_curves(path), colour, "--"))
+        runs.append((name, read_curves(path, by_axial_strain), colour, "--"))
     compresses = summary.get("path") in ("oedometer", "isotropic")
     fig, panels = plt.subplots(2, 2, figsize=(8.0, 6.2))
     q = "signed q [kPa]" if is_cyclic(own[0]) else "q [kPa]"
@@ -69,6 +98,8 @@ def laboratory(folder, overlays=()):
     at_constant_volume = all(np.nanmax(np.abs(curve["volume"]), initial=0.0) < 1e-6 for curve in own)
     if at_constant_volume:
         shown[2:] = [("strain", "p", "strain [%]", "p [kPa]"), ("strain", "pore", "strain [%]", "pore pressure [kPa]\n(total lateral stress held)")]
+    if by_axial_strain:
+        shown = [(x, y, "axial strain [%]" if x == "strain" else x_label, y_label) for x, y, x_label, y_label in shown]
     for axes, (x, y, x_label, y_label) in zip(panels.flat, shown):
         for name, curves, colour, dashes in runs:
             if len(curves) > 1:
