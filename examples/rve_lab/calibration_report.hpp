@@ -45,7 +45,7 @@ class CalibrationReport {
                                 {"seeds", calibration_.seeds}};
     if (!effort_.reasons.empty()) json["first_infeasible_evaluation"] = effort_.reasons.front();
     if (!other_.feasible()) json["infeasible_on_other_seeds"] = other_.reason;
-    for (auto const& [name, value, error, range, bound] : parameters())
+    for (auto const& [name, value, error, share_error, range, bound] : parameters())
       json["parameters"][name] = {{"value", value}, {"standard_error", error}, {"range", range}, {"at_bound", bound}};
     for (std::size_t k = 0; k < calibration_.observations.size(); ++k) {
       auto const& one = calibration_.observations[k];
@@ -69,19 +69,23 @@ class CalibrationReport {
       examples::print(stdout, "{} of {} evaluations were infeasible, the first: {}\n", effort_.reasons.size(),
                       effort_.evaluations, effort_.reasons.front());
     if (!other_.feasible()) examples::print(stdout, "infeasible on other seeds: {}\n", other_.reason);
-    for (auto const& [name, value, error, range, bound] : parameters()) {
-      if (!bound.empty()) {
-        examples::print(stdout, "{} {:.5g}, at the {} end of its bounds: widen them\n", name, value, bound);
-        continue;
-      }
-      bool const open = error > 0.25 * range;
-      examples::print(stdout, "{} {:.5g} +- {:.2g}{}\n", name, value, error,
-                      open ? ": the data hardly determine it" : "");
-    }
+    for (auto const& line : parameter_lines()) examples::print(stdout, "{}\n", line);
     for_each_target([](Observation const& one, double value, double scatter, double other, double other_scatter) {
       examples::print(stdout, "{} {:.5g} +- {:.2g} where {:.5g} is wanted; {:.5g} +- {:.2g} on other seeds\n", one.name,
                       value, scatter, one.wanted, other, other_scatter);
     });
+  }
+
+  /// What was found of each free parameter, in words.
+  std::vector<std::string> parameter_lines() const {
+    constexpr double most = 0.25;  // of the way between the bounds, by ratio where the search goes by ratio
+    std::vector<std::string> lines;
+    for (auto const& [name, value, error, share_error, range, bound] : parameters())
+      lines.push_back(bound.empty()
+                          ? fmt::format("{} {:.5g} +- {:.2g}{}", name, value, error,
+                                        share_error > most ? ": the data hardly determine it" : "")
+                          : fmt::format("{} {:.5g}, at the {} end of its bounds: widen them", name, value, bound));
+    return lines;
   }
 
   /// \throws InputError for targets that the best sand misses, naming what limits it
@@ -127,6 +131,7 @@ class CalibrationReport {
     std::string name;
     double value;
     double error;
+    double share_error;  ///< of the way between the bounds, as the search goes it
     double range;
     std::string bound;  ///< "lower" or "upper" where it lies at one
   };
@@ -140,7 +145,8 @@ class CalibrationReport {
       double const error = std::sqrt(found_.covariance(at, at));
       double const slope = (one.at(std::min(1.0, share + 0.01)) - one.at(std::max(0.0, share - 0.01))) /
                            (std::min(1.0, share + 0.01) - std::max(0.0, share - 0.01));
-      all.push_back({one.name, one.at(share), std::min(error, 1.0) * slope, one.most - one.least, bound_of(share)});
+      all.push_back(
+          {one.name, one.at(share), std::min(error, 1.0) * slope, error, one.most - one.least, bound_of(share)});
     }
     return all;
   }

@@ -53,14 +53,14 @@ class EvaluationTable {
 
  private:
   static std::string observation(Calibration const& calibration, std::size_t k) {
-    auto const& one = calibration.observations[k];
-    if (one.strain == 0.0) return one.name;
+    auto const name_of = [](Observation const& one) {
+      return one.strain == 0.0 ? one.name : fmt::format("{} at {:.6g}", one.name, one.strain);
+    };
+    auto const name = name_of(calibration.observations[k]);
     auto const end = calibration.observations.begin() + static_cast<std::ptrdiff_t>(k);
-    auto const before = std::count_if(calibration.observations.begin(), end, [&](Observation const& other) {
-      return other.name == one.name && other.strain == one.strain;
-    });
-    return fmt::format("{} at {:.6g}", one.name, one.strain) +
-           (before > 0 ? fmt::format(" of table {}", before + 1) : std::string());
+    auto const before = std::count_if(calibration.observations.begin(), end,
+                                      [&](Observation const& other) { return name_of(other) == name; });
+    return name + (before > 0 ? fmt::format(" of table {}", before + 1) : std::string());
   }
 
   static std::vector<std::string> columns(Calibration const& calibration) {
