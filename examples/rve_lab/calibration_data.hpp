@@ -73,8 +73,9 @@ inline double number_in(std::string const& text, std::string_view option) {
 }
 
 /// "name=least:most,...": parameters with their bounds; some have usual ones.
+/// sand: with whose other values the bounds are to be possible
 /// \throws InputError
-inline std::vector<Free> free_parameters(std::string const& text) {
+inline std::vector<Free> free_parameters(std::string const& text, Sand const& sand = {}) {
   std::vector<Free> all;
   for (auto const& item : examples::list_items(text)) {
     auto const equals = item.find('=');
@@ -106,7 +107,8 @@ inline std::vector<Free> free_parameters(std::string const& text) {
       scarp::reject("--free has {} from {} (a bound above 0 is expected): raise it", one.name, one.least);
     if (std::ranges::find(all, one.name, &Free::name) != all.end())
       scarp::reject("--free names '{}' twice: leave one out", one.name);
-    Sand trial;
+    Sand trial = sand;
+    if (examples::sets_density(one.name)) trial.void_ratio = trial.relative_density = 0.0;
     for (double const end : {one.least, one.most}) {
       one.of(trial) = end;
       examples::validate(trial);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -23,6 +24,7 @@ struct LabTable {
   std::vector<double> sine_strain{};  ///< at which the sines are: of means over a row its middle
   std::vector<double> volumetric{};   ///< empty where it is not given
   std::vector<double> held{};         ///< stress that the path holds, at each row [Pa]; empty without q and p
+  bool has_ratio = false;             ///< whether stresses are those of a stress_ratio: q and p tell what is held only
 
   /// triaxial: p is the mean of three principal stresses, q/p becomes \f$ \sin\varphi = 3 (q/p) / (6 + q/p) \f$; else of two,
   /// \f$ \sin\varphi = (q/p) / 2 \f$. holds_p: whether the path holds p and not the lateral stress
@@ -38,18 +40,22 @@ struct LabTable {
     lab.sine_strain = lab.strain;
     lab.volumetric =
         found(table, {{"volumetric_strain"}, {"volumetric_strain_percent", 0.01}, {"epsv"}, {"epsv_percent", 0.01}});
+    if (lab.volumetric.empty()) reject_other_volume(table);
     lab.sine = found(table, {{"stress_ratio"}});
+    lab.has_ratio = !lab.sine.empty();
     bool const means = table.has("mean_q");
-    if (lab.sine.empty() && (means || table.has("q") || table.has("q_kPa"))) {
-      lab.sine = found(table, {{"mean_q"}, {"q"}, {"q_kPa", 1e3}});
+    bool const has_p = table.has(means ? "mean_p" : "p") || table.has("p_kPa");
+    if ((means || table.has("q") || table.has("q_kPa")) && (has_p || !lab.has_ratio)) {
+      auto const q = found(table, {{"mean_q"}, {"q"}, {"q_kPa", 1e3}});
       auto const p = needed(table, "mean stress", {{means ? "mean_p" : "p"}, {"p_kPa", 1e3}});
+      if (!lab.has_ratio) lab.sine.resize(p.size());
       for (std::size_t row = 0; row < p.size(); ++row) {
-        double& q = lab.sine[row];
+        lab.held.push_back(holds_p ? p[row] : p[row] - q[row] / (triaxial ? 3.0 : 2.0));
+        if (lab.has_ratio) continue;
         if (!(p[row] > 0.0))
           scarp::reject("line {} of '{}': p is {} Pa (a mean stress above 0 is expected): correct it", table.line(row),
                         file, p[row]);
-        lab.held.push_back(holds_p ? p[row] : p[row] - q / (triaxial ? 3.0 : 2.0));
-        q /= p[row];
+        lab.sine[row] = q[row] / p[row];
         if (means && row > 0) lab.sine_strain[row] = (lab.strain[row - 1] + lab.strain[row]) / 2.0;
       }
     }
@@ -95,6 +101,19 @@ struct LabTable {
   }
 
  private:
+  /// \throws InputError for a column that may be the volumetric strain and is not read
+  static void reject_other_volume(scarp::CsvColumns const& table) {
+    for (auto const& name : table.names()) {
+      std::string small = name;
+      for (char& letter : small) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      if (small.starts_with("vol") || small.starts_with("epsv") || small.starts_with("eps_v"))
+        scarp::reject(
+            "'{}' has a column '{}' that is not read (volumetric strains are volumetric_strain or epsv, with _percent "
+            "where they are): rename it, or leave it out",
+            table.file(), name);
+    }
+  }
+
   struct Name {
     char const* name;
     double unit = 1.0;
