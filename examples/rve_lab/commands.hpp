@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,25 @@ inline scarp::RunFolder folder_of(examples::Output const& output, CLI::App const
            .record = "run_" + app.get_name() + ".json",
            .results = std::move(results)},
           examples::record_of("rve_lab " + app.get_name(), app)};
+}
+
+/// Takes files of an older run away when a new one begins: one that fails leaves no old results beside new ones.
+/// inputs: files that the run reads; they stay
+/// \throws FileError for one that cannot be removed
+inline void remove_older(scarp::RunFolder const& own, std::vector<std::string> const& names,
+                         std::vector<std::filesystem::path> const& inputs = {}) {
+  for (auto const& name : names) {
+    auto const file = own.path() / name;
+    std::error_code trouble;
+    bool const is_input = std::ranges::any_of(inputs, [&](auto const& input) {
+      std::error_code missing;
+      return std::filesystem::equivalent(file, input, missing) && !missing;
+    });
+    if (!is_input) std::filesystem::remove(file, trouble);
+    if (trouble)
+      throw scarp::FileError(fmt::format("cannot remove '{}' of an older run ({}): remove it, or choose another folder",
+                                         file.string(), trouble.message()));
+  }
 }
 
 /// Makes a packing and writes it with its sand and its tables.

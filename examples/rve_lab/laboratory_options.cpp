@@ -77,8 +77,8 @@ void declare_test(CLI::App& app, Laboratory& test) {
   path("--consolidation-k0", test.k0, "lateral over axial stress of that")->check(positive(10.0));
   auto const how = in("Accuracy");
   how("--increment", test.increment,
-      "of the path, one row each; of cycles at most a tenth of the amplitude, of a table a tenth of the way to its "
-      "next row")
+      "of the path, one row each; of cycles at most a tenth of the amplitude. Not of a table, which has ten to each "
+      "row")
       ->check(examples::number_from(1e-9, true, 0.05));
   how("--strain-step", test.strain_step, "largest strain of one DEM step")
       ->check(examples::number_from(1e-12, true, 1e-3));
@@ -105,11 +105,11 @@ void declare_test(CLI::App& app, Laboratory& test) {
 void require_used(CLI::App const& app, Laboratory const& test) {
   for (auto const* const option : app.get_options()) {
     auto const& group = option->get_group();
-    bool const of_packing = group == "Preparation" || group == "Material" || option->get_name() == "--packing" ||
-                            option->get_name() == "--sand" || option->get_name() == "--seeds" ||
-                            option->get_name() == "--device";
+    auto const name = option->get_name();
+    bool const of_packing = group == "Preparation" || group == "Material" || name == "--packing" || name == "--sand" ||
+                            name == "--seeds" || name == "--device" || name == "--strain-step" || name == "--threads";
     bool const of_soil = group == "Mohr-Coulomb and elastic material";
-    bool const of_both = option->get_name() == "--pressure";
+    bool const of_both = name == "--pressure";
     if (!of_both && (test.is_packing() ? of_soil : of_packing))
       examples::reject_unused(app, option->get_single_name(), fmt::format("the material is '{}'", test.provider));
   }
@@ -124,6 +124,7 @@ void require_used(CLI::App const& app, Laboratory const& test) {
     for (auto const* name : {"strain", "extension", "cycles", "amplitude"})
       examples::reject_unused(app, name, "the table has the targets");
     examples::reject_unused(app, "window", "results of a table are of single rows");
+    examples::reject_unused(app, "increment", "the way to each row of a table has ten");
   } else {
     examples::reject_unused(app, "table", fmt::format("the path is '{}'", test.path));
   }
@@ -132,6 +133,9 @@ void require_used(CLI::App const& app, Laboratory const& test) {
     examples::reject_unused(app, "window", "results of cycles are of single rows");
   }
   if (test.cycles == 0) examples::reject_unused(app, "amplitude", "without --cycles");
+  if (examples::given_in(app)("window") && test.window > test.strain)
+    scarp::reject("--window is {} (the test ends at a --strain of {}): choose a smaller window", test.window,
+                  test.strain);
 }
 
 }  // namespace rve_lab

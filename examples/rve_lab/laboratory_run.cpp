@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "../shared/print.hpp"
+#include "commands.hpp"
 #include "laboratory_tests.hpp"
 #include "mohr_coulomb_reading.hpp"
 #include "paths.hpp"
@@ -12,19 +13,25 @@ namespace rve_lab {
 
 namespace {
 
+/// Where the results of a test stand on its path, and from which state its void ratios count.
+struct Place {
+  bool by_axial_strain = false;  ///< of a table, whose length counts rows
+  double void_ratio = 0.0;       ///< where the path begins
+};
+
 template <int Dim>
-nlohmann::json json_of(LaboratoryRow<Dim> const& row, double void_ratio) {
-  return {{"strain", row.length},
+nlohmann::json json_of(LaboratoryRow<Dim> const& row, Place const& place) {
+  return {{"strain", place.by_axial_strain ? row.axial_strain() : row.length},
           {"p", row.p()},
           {"q", row.q()},
           {"friction_angle", row.friction() / degree},
           {"volumetric_strain", row.volumetric_strain()},
-          {"void_ratio", row.void_ratio(void_ratio)}};
+          {"void_ratio", row.void_ratio(place.void_ratio)}};
 }
 
 /// whole: whether the test came to its end; one that was cut off has no residual state
 template <int Dim>
-nlohmann::json json_of(LaboratoryResults<Dim> const& results, double void_ratio, bool whole) {
+nlohmann::json json_of(LaboratoryResults<Dim> const& results, Place const& place, bool whole) {
   nlohmann::json json{{"peak", nullptr},
                       {"residual", nullptr},
                       {"phase_transformation", nullptr},
@@ -33,9 +40,9 @@ nlohmann::json json_of(LaboratoryResults<Dim> const& results, double void_ratio,
                       {"E50", results.secant_modulus},
                       {"G0", results.shear_modulus},
                       {"K0", results.k0}};
-  if (!results.rises) json["peak"] = json_of(results.peak, void_ratio);
-  if (whole) json["residual"] = json_of(results.residual, void_ratio);
-  if (results.phase_transformation) json["phase_transformation"] = json_of(*results.phase_transformation, void_ratio);
+  if (!results.rises) json["peak"] = json_of(results.peak, place);
+  if (whole) json["residual"] = json_of(results.residual, place);
+  if (results.phase_transformation) json["phase_transformation"] = json_of(*results.phase_transformation, place);
   return json;
 }
 
@@ -104,6 +111,7 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
   std::optional<TargetTable<Dim>> targets;
   if (choice.path == "table") targets.emplace(choice.table);
   own.begin();
+  remove_older(own, {"summary.json"});
   LaboratoryRun<Dim> run(choice, material, count, own.path() / "test.csv");
   run.run(targets ? &*targets : nullptr);
   auto const farthest = run.farthest();
@@ -117,9 +125,12 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
     total.iterations += test.total.iterations;
     total.missing = std::max(total.missing, test.total.missing);
   }
-  auto const window = [&](auto const& test) {
-    return choice.path == "table" || choice.cycles > 0 || std::abs(test.length()) < choice.window ? 0.0 : choice.window;
+  bool const of_table = choice.path == "table";
+  auto const window = [&](auto const& rows) {
+    bool const single = of_table || choice.cycles > 0 || rows.empty() || std::abs(rows.back().length) < choice.window;
+    return single ? 0.0 : choice.window;
   };
+  auto const ends = run.farthest_rows();
   nlohmann::json summary{{"path", choice.path},
                          {"material", described},
                          {"dimension", Dim},
@@ -130,7 +141,7 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
                          {"cut_backs", total.cut_backs},
                          {"iterations", total.iterations},
                          {"largest_missing_stress", total.missing},
-                         {"window", window(*farthest.front())},
+                         {"window", window(ends.front())},
                          {"overlay", choice.overlays},
                          {"output", own.path().string()},
                          {"run", examples::json_of(own.record())}};
@@ -143,7 +154,8 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
       auto const& test = run.tests()[k];
       nlohmann::json json;
       if (test.rows.size() > 1) {
-        json = json_of(laboratory_results<Dim>(test.rows, window(test)), test.void_ratio, test.verdict.acceptable());
+        json = json_of(laboratory_results<Dim>(test.rows, window(test.rows)), Place{of_table, test.void_ratio},
+                       test.verdict.acceptable());
         if (k < most_lines) print_results(std::to_string(k), json);
       }
       json.update({{"ended", scarp::name(test.verdict.reason)}, {"length", test.length()}});
@@ -153,14 +165,10 @@ bool test_material(Laboratory const& choice, scarp::AnyProvider<Dim> const& mate
       examples::print(stdout, "{} more points are in '{}'\n", run.tests().size() - most_lines,
                       (own.path() / "summary.json").string());
     double mean_void_ratio = 0.0;
-    std::vector<std::vector<LaboratoryRow<Dim>>> rows;
-    for (auto const* test : farthest) {
-      mean_void_ratio += test->void_ratio / static_cast<double>(farthest.size());
-      rows.push_back(test->rows);
-    }
+    for (auto const* test : farthest) mean_void_ratio += test->void_ratio / static_cast<double>(farthest.size());
     bool const whole = farthest.front()->verdict.acceptable();
-    auto const mean = laboratory_results<Dim>(mean_rows<Dim>(rows), window(*farthest.front()));
-    summary["mean"] = json_of(mean, mean_void_ratio, whole);
+    auto const mean = laboratory_results<Dim>(mean_rows<Dim>(ends), window(ends.front()));
+    summary["mean"] = json_of(mean, Place{of_table, mean_void_ratio}, whole);
     summary["mean"]["points"] = farthest.size();
     if (count > 1) {
       print_results("mean", summary["mean"]);

@@ -133,6 +133,22 @@ class LaboratoryRun {
     return found;
   }
 
+  /// Rows of these tests, for their mean. Where none finished, each ended within its last increment at a length of its
+  /// own: that row is left out. Tests that have no other than it and the start give the rows of the first.
+  std::vector<std::vector<LaboratoryRow<Dim>>> farthest_rows() const {
+    std::vector<std::vector<LaboratoryRow<Dim>>> found;
+    for (auto const* test : farthest()) found.push_back(test->rows);
+    constexpr double slight = 1e-9;
+    auto const differs = [&](auto const& rows) {
+      return !rows.empty() &&
+             std::abs(rows.back().length - found.front().back().length) > slight * std::abs(rows.back().length);
+    };
+    if (std::ranges::none_of(found, differs)) return found;
+    if (found.front().size() < 3) return {found.front()};
+    for (auto& rows : found) rows.pop_back();
+    return found;
+  }
+
  private:
   scarp::PathSettings settings() const { return {.tolerance = choice_.tolerance}; }
 

@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from expectations import example, expect, finish
+from expectations import example, expect, finish, leave_out, rejected
 
 LAB = example("rve_lab")
 ON_DEVICE = example("rve_lab_device")
@@ -80,7 +80,8 @@ def check_no_strength(folder):
 
 def check_table(folder):
     (folder / "path.csv").write_text("sxx,eyy\n1.5e5,0.001\n1.2e5,0.002\n")
-    _, rows, _ = tested(folder, "table", "--material", "elastic", "--pressure", "1e5", "--path", "table", "--table", "path.csv")
+    _, rows, summary = tested(folder, "table", "--material", "elastic", "--pressure", "1e5", "--path", "table", "--table", "path.csv")
+    near("strain of the residual state of a table", summary["mean"]["residual"]["strain"], 0.002, 1e-9)
     near("lateral stress after a row", rows[10]["lateral_stress"], 1.5e5, 1e-4)
     near("axial strain after a row", rows[10]["axial_strain"], 0.001, 1e-9)
     near("lateral stress", rows[-1]["lateral_stress"], 1.2e5, 1e-4)
@@ -95,6 +96,27 @@ def check_table(folder):
         (folder / "wrong.csv").write_text(text)
         code, said = run(folder, "wrong", "--material", "elastic", "--path", "table", "--table", "wrong.csv")
         expect(code == 2 and named in said, f"{text!r}: ended with {code}, {said}")
+
+
+def check_figures(folder):
+    """Overlays have the names and separators of `calibrate`; of a path of a table the axial strain is drawn, not its length."""
+    sys.path[:0] = [str(ROOT / "examples" / "shared"), str(ROOT / "examples" / "rve_lab")]
+    try:
+        import scarp_figures
+        from laboratory_figure import laboratory
+    except ModuleNotFoundError as missing:
+        return leave_out(f"figures are not drawn ({missing})")
+    rows = "".join(f"{0.1 * k};{0.01 * k};{10 * k};{100 + 5 * k}\n" for k in range(5))
+    (folder / "parted.csv").write_text("axial_strain_percent;volumetric_strain_percent;q_kPa;p_kPa\n" + rows)
+    stress, path, volume, _ = laboratory(folder / "table", [folder / "parted.csv"]).axes
+    expect(stress.get_xlabel() == volume.get_xlabel() == "axial strain [%]", f"axes of a table's path: {stress.get_xlabel()}")
+    ends = {line.get_label(): line.get_xdata()[-1] for line in stress.lines}
+    near("strain of a table's path in per cent", ends["this test"], 0.2, 1e-6)
+    near("strain of an overlay in per cent", ends["parted"], 0.4, 1e-9)
+    near("volumetric strain of an overlay in per cent", volume.lines[1].get_ydata()[-1], 0.04, 1e-9)
+    near("q of an overlay in kPa", path.lines[1].get_ydata()[-1], 40.0, 1e-9)
+    (folder / "bare.csv").write_text("q_kPa,p_kPa\n0,100\n10,105\n")
+    rejected(scarp_figures.InputError, "has no column of a strain (it has: q_kPa, p_kPa)", lambda: laboratory(folder / "table", [folder / "bare.csv"]))
 
 
 def check_packing(folder):
@@ -173,6 +195,9 @@ def check_ends(folder):
                              (["--material", "elastic", "--path", "table", "--table", "empty.csv"], "has no rows"),
                              (["--material", "elastic", "--path", "table", "--table", "beyond.csv", "--window", "0.01"], "--window is given but not used"),
                              (["--material", "elastic", "--cycles", "2", "--window", "0.01"], "--window is given but not used"),
+                             (["--material", "elastic", "--path", "table", "--table", "beyond.csv", "--increment", "1e-3"], "--increment is given but not used"),
+                             (["--material", "elastic", "--strain-step", "1e-5"], "--strain-step is given but not used"),
+                             (["--material", "elastic", "--window", "0.05", "--strain", "0.001"], "--window is 0.05"),
                              (["--material", "elastic", "--cohesion", "1"], "--cohesion"),
                              (["--material", "elastic", "--grains", "9"], "--grains"),
                              (["--path", "table"], "no table"), (["--consolidation-k0", "0.5"], "--consolidation-k0"),
@@ -185,6 +210,6 @@ def check_ends(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (check_closed_forms, check_no_strength, check_table, check_packing, check_seeds, check_devices, check_ends):
+    for check in (check_closed_forms, check_no_strength, check_table, check_figures, check_packing, check_seeds, check_devices, check_ends):
         check(pathlib.Path(scratch))
 finish()

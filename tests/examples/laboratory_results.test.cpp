@@ -7,6 +7,8 @@
 #include <numbers>
 #include <type_traits>
 
+#include "../../examples/rve_lab/calibration_report.hpp"
+#include "../../examples/rve_lab/evaluation_table.hpp"
 #include "../../examples/rve_lab/laboratory_results.hpp"
 #include "../../examples/rve_lab/laboratory_tests.hpp"
 #include "../../examples/rve_lab/mohr_coulomb_reading.hpp"
@@ -37,7 +39,7 @@ auto rows_of(Provider const& provider, scarp::PathConditions<Dim> const& conditi
   return rows;
 }
 
-/// Elastic material whose second point bears an axial stress of 150 kPa only.
+/// Elastic material whose second point bears an axial stress of 150 kPa only; with `all_fail` the others a little more.
 struct Uneven {
   static constexpr int dim = 2;
   using Elastic = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
@@ -47,6 +49,7 @@ struct Uneven {
     SCARP_MEMBERS(own, number)
   };
   Elastic elastic = Elastic::from_young_poisson(20e6, 0.3, {.surcharge = 100e3});
+  bool all_fail = false;
 
   State initial_state(scarp::Site<2> const& site) const { return {elastic.initial_state(site), site.index}; }
   scarp::VoigtStress<2> stress(State const& state) const { return elastic.stress(state.own); }
@@ -54,8 +57,8 @@ struct Uneven {
   scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
     trial = committed;
     auto response = elastic.respond(committed.own, increment, trial.own);
-    if (committed.number == 1 && response.stress(1) < -150e3)
-      response.verdict = {scarp::Status::failed, scarp::Reason::no_contacts};
+    double const most = committed.number == 1 ? 150e3 : all_fail ? 150.9e3 : 1e9;
+    if (response.stress(1) < -most) response.verdict = {scarp::Status::failed, scarp::Reason::no_contacts};
     return response;
   }
 };
@@ -240,4 +243,43 @@ TEST_CASE("a test that fails ends for itself, the others go on") {
     CHECK(tests[k].length() == Approx(0.01).epsilon(1e-9));
   }
   CHECK(run.farthest() == std::vector{&tests[0], &tests[2]});
+  CHECK(run.farthest_rows().front().size() == tests[0].rows.size());
+}
+
+TEST_CASE("the mean of tests that all failed ends where their rows are of equal lengths") {
+  samples::ScratchFolder const folder;
+  rve_lab::Laboratory choice;
+  choice.strain = 0.01;
+  rve_lab::LaboratoryRun<2> run(choice, Uneven{.all_fail = true}, 2, folder / "test.csv");
+  run.run(nullptr);
+  auto const& tests = run.tests();
+  REQUIRE(tests[0].rows.size() == tests[1].rows.size());
+  CHECK(tests[0].length() > tests[1].length() + 1e-6);
+  auto const rows = run.farthest_rows();
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].size() == tests[0].rows.size() - 1);
+  CHECK(rows[0].back().length == Approx(rows[1].back().length).epsilon(1e-12));
+}
+
+TEST_CASE("what a calibration hardly determines is told by the scale of its search") {
+  rve_lab::Calibration calibration{.free = {{"normal-stiffness", 2e6, 2e8}, {"friction", 0.1, 1.0}},
+                                   .observations = {{.name = "e50", .wanted = 1e7}}};
+  Eigen::VectorXd const one = Eigen::VectorXd::Ones(1);
+  rve_lab::Evaluation const best{.shares = Eigen::VectorXd::Constant(2, 0.3), .values = one, .scatter = one};
+  auto const lines = [&](double error) {
+    rve_lab::Sensitivities const found{.slopes = Eigen::MatrixXd::Zero(1, 2),
+                                       .covariance = error * error * Eigen::MatrixXd::Identity(2, 2)};
+    return rve_lab::CalibrationReport(calibration, best, best, found, one, {}).parameter_lines();
+  };
+  for (auto const& line : lines(0.3)) CHECK(line.ends_with(": the data hardly determine it"));
+  for (auto const& line : lines(0.2)) CHECK_FALSE(line.ends_with("determine it"));
+}
+
+TEST_CASE("columns of two tables that end at one strain, but for round-off, have names of their own") {
+  samples::ScratchFolder const folder;
+  rve_lab::Calibration calibration{.free = {{"friction", 0.1, 1.0}}};
+  for (double const strain : {0.07, std::nextafter(0.07, 1.0)})
+    calibration.observations.push_back({.name = "volumetric strain", .wanted = 0.0, .strain = strain});
+  rve_lab::EvaluationTable const table(folder / "evaluations.csv", calibration, false);
+  CHECK(scarp::read_file(folder / "evaluations.csv").find("volumetric strain at 0.07 of table 2") != std::string::npos);
 }
