@@ -18,7 +18,7 @@ bool is_density(std::string const& name) { return examples::sets_density(name); 
 /// \throws InputError for another one
 void take_held_stress(LabTable const& table, std::optional<double> given, std::optional<double>& held) {
   constexpr double alike = 0.1;
-  if (given && table.held.empty()) return;
+  if (given && (table.held.empty() || table.has_ratio)) return;
   auto const own = table.held_stress();
   if (!own && !given && !held)
     scarp::reject("'{}' has no q and p (the stress that its test held is not known): give --lateral-stress",
@@ -45,7 +45,7 @@ Calibration calibration_of(CalibrateChoice& choice, CLI::App const& app) {
     choice.free = std::string("friction,relative-density,") +
                   (choice.sand.law.ends_with("hertz") ? "modulus" : "normal-stiffness");
   Calibration all{.start = choice.sand,
-                  .free = free_parameters(choice.free),
+                  .free = free_parameters(choice.free, choice.sand),
                   .test = choice.test,
                   .window = choice.window,
                   .seeds = choice.seeds,
@@ -129,9 +129,11 @@ void calibrate(CalibrateChoice choice, CLI::App const& app) {
   scarp::RunFolder own({.folder = choice.output.folder,
                         .overwrite = choice.output.overwrite || resume,
                         .record = "run_calibrate.json",
-                        .results = {"evaluations.csv"}},
+                        .results = {"evaluations.csv", "summary.json"}},
                        examples::record_of("rve_lab calibrate", app));
   own.begin();
+  if (!resume)
+    remove_older(own, {"calibrated.sand", "calibration.csv", "curve.csv", "summary.json"}, {choice.sand_file});
   scarp::write_file(own.path() / "settings.txt", settings);
   Search search(calibration, own.path(), resume);
   search.optimise(search.feasible(start_of(calibration)));

@@ -12,13 +12,14 @@ namespace rve_lab {
 template <class PackingType>
 Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTest const& test,
              PathKindIn<PackingType::dim> const& path) {
-  Specimen<PackingType, scarp::Observe::balance> lab(std::move(packing), law, path, test.strain_step, test.held);
+  auto const [steps_per_row, strain_step] = EvenSteps::of(test.row_strain, test.strain_step, 2);
+  Specimen<PackingType, scarp::Observe::balance> lab(std::move(packing), law, path, strain_step, test.held);
   Curve curve;
   curve.void_ratio = lab.packing().void_ratio();
   curve.add(scarp::balance(lab.packing(), law).stress, lab.deformation());
-  long const steps_per_row = steps_of(test.row_strain, test.strain_step);
-  auto const rows =
-      static_cast<long>(std::ceil(test.strain / test.row_strain + 0.5 - 1e-9));  // the last middle is beyond the strain
+  double const middle_of_row = static_cast<double>(steps_per_row / 2) * strain_step;
+  auto const rows = static_cast<long>(  // the last middle is beyond the strain
+      std::ceil((test.strain - middle_of_row) / test.row_strain + 1.0 - 1e-9));
   scarp::Tensor<PackingType::dim> sum = scarp::Tensor<PackingType::dim>::Zero();
   auto middle = lab.deformation();
   // A path that prescribes another strain goes on to the axial one. Curves of several seeds are cut to the shortest, where those that

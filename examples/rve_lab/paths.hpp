@@ -90,6 +90,20 @@ inline PathKindIn<3> const& triaxial_path() {
   return path;
 }
 
+/// As many steps as make no step of a stretch of strain larger than the one that is wanted.
+struct EvenSteps {
+  long count = 1;
+  double strain = 0.0;  ///< of one step: the wanted one itself where it divides the stretch
+
+  /// least: number of steps
+  static EvenSteps of(double stretch, double wanted, long least = 1) {
+    constexpr double slight = 1e-9;
+    auto const count = std::max(least, static_cast<long>(std::ceil(stretch / wanted * (1.0 - slight))));
+    double const even = stretch / static_cast<double>(count);
+    return {count, std::abs(even - wanted) <= slight * wanted ? wanted : even};
+  }
+};
+
 /// Steps between two rows.
 inline long steps_of(double strain, double strain_step) { return std::max(1L, std::lround(strain / strain_step)); }
 
