@@ -32,6 +32,9 @@ inline void require_used(CLI::App const& app, Path const& path) {
     examples::reject_unused(app, "lateral-stress", fmt::format("the path '{}' holds no stress", path.name));
   if (path.cycles > 0) examples::reject_unused(app, "strain", "--cycles go to --amplitude");
   if (path.cycles == 0) examples::reject_unused(app, "amplitude", "without --cycles");
+  if (path.cycles == 0 && path.strain < path.strain_step * (1.0 - 1e-9))
+    scarp::reject("--strain is {} (a DEM step of --strain-step has {}): choose smaller steps", path.strain,
+                  path.strain_step);
   if (path.cycles > 0 && path.amplitude < path.strain_step)
     scarp::reject("--amplitude is {} (a DEM step of --strain-step has {}): choose smaller steps", path.amplitude,
                   path.strain_step);

@@ -71,7 +71,8 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                 scarp::LinearFrictional const& law) {
   using Lab = Specimen<PackingType, scarp::Observe::balance>;
   auto named = scarp::read_packing<PackingType>(particles, cell, choice.sand.density, choice.sand.thickness);
-  if (contacts && contacts->has("ftx")) examples::read_contacts(named, *contacts, law, choice.tolerance);
+  if (contacts && (contacts->has("ftx") || contacts->has("fty")))
+    examples::read_contacts(named, *contacts, law, choice.tolerance);
   if (choice.relaxation) relax(named.packing, law, *choice.relaxation);
   PathKind const& path = path_named(choice.path.name);
   Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);
@@ -79,8 +80,9 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   examples::print(stdout, "{} grains, {:.0f} contacts, void ratio {:.8f}\n", lab.packing().grain_count(),
                   first.contacts, lab.packing().void_ratio());
   examples::print(stdout, "cell {:.12g},{:.12g},{:.12g},{:.12g} m\n", cell(0, 0), cell(1, 0), cell(0, 1), cell(1, 1));
-  examples::print(stdout, "law: normal stiffness {} N/m, tangential {} N/m, friction {}\n", law.normal_stiffness,
-                  law.tangential_stiffness, law.friction);
+  examples::print(
+      stdout, "law: normal stiffness {} N/m, tangential {} N/m, friction {}; thickness {} m, density {} kg/m3\n",
+      law.normal_stiffness, law.tangential_stiffness, law.friction, choice.sand.thickness, choice.sand.density);
   examples::print(stdout, "stress [Pa]: xx {:.6f}, xy {:.6f}, yx {:.6f}, yy {:.6f}\n", first.stress(0, 0),
                   first.stress(0, 1), first.stress(1, 0), first.stress(1, 1));
   if (first.contacts == 0.0) {
@@ -113,10 +115,15 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
 
 void replay(Replay choice, CLI::App const& app) {
   require_used(app, choice.path);
+  if (choice.contacts.empty()) examples::reject_unused(app, "tolerance", "without --contacts");
   examples::reject_overwriting(choice.out, {choice.particles, choice.contacts});
   auto const input = examples::read_packing_input(choice.particles, choice.contacts, choice.cell);
   if (input.contacts) take_law_from(*input.contacts, examples::given_in(app), choice.sand);
   choice.sand.shape = examples::shape_of(input.particles);
+  if (!examples::given_in(app)("thickness"))
+    examples::print_notes(
+        {fmt::format("--thickness is not given: {} m is taken (stresses are per thickness); give that of the packing",
+                     choice.sand.thickness)});
   examples::with_packing(examples::Built<Discs, Ellipses, Superellipses>{}, choice.sand,
                          [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
                            run_replay<PackingType>(choice, input.particles, input.contacts, input.cell, law);

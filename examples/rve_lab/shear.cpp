@@ -33,22 +33,41 @@ void print_row(Row const& row) {
   std::fflush(stdout);
 }
 
+/// Files of the states and of the end, which a run that fails does not write.
+void remove_older_ends(scarp::RunFolder const& own, std::filesystem::path const& input) {
+  std::vector<std::string> names{"end.packing", "end.sand", "summary.json"};
+  for (char const* state : {"peak", "end"}) {
+    for (char const* table : {"particles", "contacts", "cell"}) names.push_back(fmt::format("{}_{}.csv", state, table));
+  }
+  remove_older(own, names, {input, examples::sand_path(input)});
+}
+
 /// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest q/p and at
 /// the end, end.packing (with end.sand) to continue from, summary.json last.
+/// input: file of the packing, where it comes from one
 /// \throws std::runtime_error when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>
-void run_path(PackingType start, typename PackingType::Law const& law, Path const& choice, scarp::RunFolder& own,
-              Sand const& sand) {
+void run_path(PackingType start, typename PackingType::Law const& law, Path choice, scarp::RunFolder& own,
+              Sand const& sand, std::filesystem::path const& input) {
   std::filesystem::path const& folder = own.path();
   PathKind const& path = path_named(choice.name);
-  Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
   bool const cyclic = choice.cycles > 0;
+  long steps = steps_of(choice.strain, choice.strain_step);
+  if (cyclic) {  // turns are at the amplitude itself
+    auto const quarter = EvenSteps::of(choice.amplitude, choice.strain_step);
+    if (quarter.strain != choice.strain_step)
+      examples::print_notes({fmt::format("--strain-step {} does not divide the amplitude {}: steps of {:.6g} are made",
+                                         choice.strain_step, choice.amplitude, quarter.strain)});
+    choice.strain_step = quarter.strain;
+    steps = 4 * choice.cycles * quarter.count;
+  }
+  Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
   double const length = cyclic ? 4.0 * choice.amplitude * choice.cycles : choice.strain;
   examples::Cyclic const cycle{choice.amplitude - 0.5 * choice.strain_step};  // half a step for round-off
-  long const steps = steps_of(length, choice.strain_step);
   long const steps_per_row = steps_of(choice.row_strain.value_or(length / 200.0), choice.strain_step);
 
   own.begin();
+  remove_older_ends(own, input);
   Recorder<PackingType> recorder(lab.packing());
   Row const first = recorder.row(lab, path, 0);
   std::vector<std::string> names;
@@ -128,7 +147,7 @@ void shear(Test& choice, CLI::App const& app) {
   with_packing(Grains{}, choice.sand, [&]<class PackingType>(std::type_identity<PackingType>, auto const& law) {
     auto packing = choice.packing.empty() ? Preparation<PackingType>::printed(choice.sand, law)
                                           : scarp::load_packing<PackingType>(choice.packing);
-    run_path(std::move(packing), law, choice.path, own, choice.sand);
+    run_path(std::move(packing), law, choice.path, own, choice.sand, choice.packing);
   });
 }
 

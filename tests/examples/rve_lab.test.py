@@ -3,6 +3,7 @@
 and stays within fractions of the confining stress; packings survive files; bad input gets a message and a non-zero
 exit. Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
+import json
 import os
 import pathlib
 import re
@@ -141,7 +142,22 @@ def check_other_stress(folder):
         expect(code > 0 and f"{named} is given but not used" in said, f"{title}: ended with {code}\n{said}")
     code, said = run("shear", "--grains", "60", "--cycles", "3", "--amplitude", "4e-5", "--strain-step", "1e-4", "--output", "unused", folder=folder)
     expect(code == 2 and "--amplitude is 4e-05" in said, f"an amplitude below a step: ended with {code}\n{said}")
+    code, said = run("shear", "--grains", "60", "--strain", "1e-7", "--strain-step", "1e-5", "--output", "unused", folder=folder)
+    expect(code == 2 and "--strain is 1e-07" in said, f"a strain below a step: ended with {code}\n{said}")
     expect(not (folder / "unused").exists(), "options that are not used: something was written")
+
+
+def check_cycles(folder):
+    """Cycles turn round at their amplitude, whatever the step is; one that divides it stays."""
+    for step, used, steps in ((5e-5, 5e-5, 16), (6.6e-5, 5e-5, 16), (3e-5, 2.5e-5, 32)):
+        code, said = run("shear", "--grains", "60", "--path", "simple_shear", "--cycles", "2", "--amplitude", "1e-4", "--strain-step", step,
+                         "--row-strain", "1e-5", "--overwrite", "--output", "cyclic", folder=folder)
+        expect(code == 0 and ("does not divide the amplitude" in said) == (step != used), f"steps of {step}: ended with {code}\n{said}")
+        summary = json.loads((folder / "cyclic/summary.json").read_text())
+        expect(summary["steps"] == steps and abs(summary["strain_step"] - used) < 1e-15, f"steps of {step}: {summary['steps']} of {summary['strain_step']}")
+        strains = [row["strain"] for row in read(folder / "cyclic/path.csv")]
+        expect(all(abs(strain - end) < 1e-12 for strain, end in ((max(strains), 1e-4), (min(strains), -1e-4), (strains[-1], 0.0))),
+               f"steps of {step}: turns at {min(strains)} and {max(strains)}, ends at {strains[-1]}")
 
 
 def check_loose(folder):
@@ -152,6 +168,15 @@ def check_loose(folder):
     (folder / "space.csv").write_text("x,y,z,r\n0.02,0.02,0.02,0.005\n0.06,0.06,0.06,0.005\n")
     code, said = run("replay", "--particles", "space.csv", *path, folder=folder)
     expect(code > 0 and "column 'z'" in said, f"grains in space: ended with {code}\n{said}")
+    (folder / "mixed.csv").write_text("x,y,r,a,b,angle\n0.02,0.02,0.005,0.005,0.004,0\n0.06,0.06,0.005,0.005,0.004,0\n")
+    code, said = run("replay", "--particles", "mixed.csv", *path, folder=folder)
+    expect(code == 2 and "has columns r and a, b" in said, f"discs and ellipses in one table: ended with {code}\n{said}")
+    code, said = run("replay", "--particles", "loose.csv", *path, "--tolerance", "1e-3", folder=folder)
+    expect(code == 2 and "--tolerance is given but not used" in said, f"a tolerance without contacts: ended with {code}\n{said}")
+    for more, thickness in (([], 0.2), (["--thickness", "1.5"], 1.5)):
+        code, said = run("replay", "--particles", "loose.csv", *path, *more, folder=folder)
+        expect(code == 0 and f"thickness {thickness} m, density 2650 kg/m3" in said, f"thickness {more}: ended with {code}\n{said}")
+        expect(("--thickness is not given: 0.2 m" in said) == (not more), f"note on the thickness {more}:\n{said}")
 
 
 def check_relax(folder):
@@ -238,6 +263,9 @@ def check_refusals(folder):
     mixed = [contacts[0] + ",kn"] + [line + ",6e6" for line in contacts[1:-1]] + [contacts[-1] + ",7e6"]
     (folder / "mixed.csv").write_text("\n".join(mixed) + "\n")
     refused("two stiffnesses", "column 'kn'", "replay", *particles, "--contacts", "mixed.csv", *good)
+    shear = [",".join("fty" if name == "ftx" else "of_no_use" if name == "fty" else name for name in contacts[0].split(",")), *contacts[1:]]
+    (folder / "shear.csv").write_text("\n".join(shear) + "\n")
+    refused("fty without ftx", "ftx", "replay", *particles, "--contacts", "shear.csv", *good)
     refused("no packing", "nowhere.packing", "shear", "--packing", "nowhere.packing", "--output", "none")
     refused("unreachable void ratio", "is not reached", "prepare", "--grains", "60", "--target-void-ratio", "0.05",
             "--output", "none")
@@ -246,8 +274,12 @@ def check_refusals(folder):
 
 def check_early_end(folder):
     """A packing that is crushed ends the program with its reason, and the rows so far stay."""
-    code, said = run("shear", "--grains", "60", "--path", "isotropic", "--strain", "2", "--strain-step", "1e-3",
-                     "--output", "crushed", folder=folder)
+    path = ["--grains", "60", "--path", "isotropic", "--strain-step", "1e-3", "--output", "crushed"]
+    code, said = run("shear", *path, "--strain", "0.002", folder=folder)
+    expect(code == 0 and (folder / "crushed/end.packing").is_file(), f"a packing that is compressed: ended with {code}\n{said}")
+    code, said = run("shear", *path, "--strain", "2", "--overwrite", folder=folder)
+    left = sorted(file.name for file in (folder / "crushed").iterdir() if file.name.startswith(("end", "peak", "summary")))
+    expect(not left, f"results of an older run beside those of one that failed: {left}")
     expect(code == 1 and "too_deep" in said, f"crushed packing: ended with {code}\n{said}")
     expect(len(read(folder / "crushed/path.csv")) > 1, "crushed packing: its rows are gone")
 
@@ -255,7 +287,7 @@ def check_early_end(folder):
 if not LAB.is_file():
     print(f"skipped: there is no '{LAB}' (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_paths, check_cell, check_held_stress, check_other_stress, check_loose, check_relax, check_round_trip, check_other_codes, check_refusals, check_early_end):
+for check in (check_paths, check_cell, check_held_stress, check_other_stress, check_cycles, check_loose, check_relax, check_round_trip, check_other_codes, check_refusals, check_early_end):
     started = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
         check(pathlib.Path(scratch))
