@@ -35,10 +35,9 @@ void print_row(Row const& row) {
 
 /// Files of the states and of the end, which a run that fails does not write.
 void remove_older_ends(scarp::RunFolder const& own, std::filesystem::path const& input) {
-  std::vector<std::string> names{"end.packing", "end.sand", "summary.json"};
-  for (char const* state : {"peak", "end"}) {
-    for (char const* table : {"particles", "contacts", "cell"}) names.push_back(fmt::format("{}_{}.csv", state, table));
-  }
+  std::vector<std::string> const names{"end.packing",        "end.sand",          "summary.json",
+                                       "peak_particles.csv", "peak_contacts.csv", "peak_cell.csv",
+                                       "end_particles.csv",  "end_contacts.csv",  "end_cell.csv"};
   remove_older(own, names, {input, examples::sand_path(input)});
 }
 
