@@ -59,15 +59,18 @@ class StoredPacking {
     return packing_;
   }
 
-  /// The state on a device and its header, which has a trouble where the device cannot observe the packing. What it
-  /// needs is written there first if it is not there.
+  /// The state on a device and its header, which has a trouble where the device cannot observe the packing, or has it
+  /// for another law: the processor responds then. What it needs is written there first if it is not there.
   std::pair<State, Header> on(std::shared_ptr<Device> const& device, Parameters const& parameters) const {
     std::lock_guard const lock(mutex_);
-    if (device_ != device || !is_of(parameters.law)) {
+    if (device_ != device) {
       if (!is_here_) fetch();
       place(device, parameters);
     }
-    return {State(bytes_.get(), size_), header_};
+    Header header = header_;
+    // List and stiffness of another law are not this one's, and its points may be at work with them.
+    if (!basis_.agrees_with(list_basis(packing_, parameters.law, skin_))) header.trouble = Trouble::unconverged_touch;
+    return {State(bytes_.get(), size_), header};
   }
 
   /// Whether it is on this device.
@@ -77,9 +80,6 @@ class StoredPacking {
   }
 
  private:
-  /// Whether list, critical step and stiffness are of this law: a state may come from a point of another one.
-  bool is_of(Law const& law) const { return basis_.agrees_with(list_basis(packing_, law, skin_)); }
-
   void fetch() const {
     AlignedVector<std::byte> bytes(State::bytes(size_));
     device_->read(bytes_.get(), bytes);
