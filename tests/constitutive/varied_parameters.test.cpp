@@ -81,10 +81,9 @@ TEST_CASE("points of varied providers refine their plans by their own provider")
 
 TEST_CASE("a state that goes to another point is that of a material with the parameters there") {
   scarp::SerialExecutor serial;
-  using Elastic = scarp::LinearElastic<2>;
-  scarp::VariedParameters<Elastic> const soil{{}, [](Elastic const&, scarp::Site<2> const& site) {
-                                                return Elastic::from_young_poisson(site.index == 0 ? 1e6 : 5e6, 0.3);
-                                              }};
+  Varied const soil{{}, [](Elastic const&, scarp::Site<2> const& site) {
+                      return Elastic::from_young_poisson(site.index == 0 ? 1e6 : 5e6, 0.3);
+                    }};
   std::vector<scarp::Site<2>> const sites{{.index = 0}, {.index = 1}};
   scarp::MaterialPoints<2> copied(soil, sites), unpacked(soil, sites);
   copied.copy(1, copied, 0);
