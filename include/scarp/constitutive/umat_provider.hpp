@@ -83,7 +83,7 @@ struct UmatProvider {
   /// Where a point is.
   struct Place {
     Vector<3> position = Vector<3>::Zero();  ///< COORDS [m]
-    int element = 1;                         ///< NOEL; where there is none, the point's number
+    int element = 1;                         ///< NOEL; without an element the point's number
     int number = 1;                          ///< in the element, NPT
     double size = 1.0;                       ///< of the element, CELENT [m]
   };

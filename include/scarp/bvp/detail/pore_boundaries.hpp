@@ -62,9 +62,8 @@ class PoreBoundaries {
 
   std::vector<int> const& unknowns() const { return unknowns_; }  ///< Corners whose pressure is not given.
   bool is_given(int corner) const { return given_[index(corner)].has_value(); }
-  int number(int corner) const {
-    return number_[index(corner)];
-  }  ///< Among the unknowns, of one whose pressure is not given.
+  /// Among the unknowns, of a corner whose pressure is not given.
+  int number(int corner) const { return number_[index(corner)]; }
   /// Over the corners whose pressure is given.
   double sum_of_given(std::vector<double> const& values) const {
     double sum = 0.0;
