@@ -193,7 +193,8 @@ void bond_contacts(PackingType& packing, typename PackingType::Law const& law) {
   using Law = typename PackingType::Law;
   using Memory = scarp::ContactMemory<PackingType::dim, typename PackingType::Scalar>;
   if constexpr (requires(Memory & memory) { Law::bond(memory); }) {
-    scarp::TimeStepper<PackingType>{}.refresh(packing, law);
+    if (!scarp::TimeStepper<PackingType>{}.refresh(packing, law).acceptable())
+      scarp::reject("{} grains have no list of near pairs: the benchmark needs another seed", packing.grain_count());
     std::vector<std::size_t> closed;
     scarp::for_each_contact(packing, law, [&](auto const& contact) { closed.push_back(contact.pair); });
     Memory bonded;

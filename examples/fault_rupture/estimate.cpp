@@ -79,7 +79,7 @@ Control control_of(Choice const& choice) {
 }
 
 CostModel read_cost_model(std::filesystem::path const& file) {
-  auto const found = nlohmann::json::parse(scarp::read_file(file), nullptr, false);
+  auto const found = nlohmann::ordered_json::parse(scarp::read_file(file), nullptr, false);
   CostModel model;
   CostModel::members(model, [&](char const* name, auto& value) {
     bool const sound = found.is_object() && found.contains(name) &&

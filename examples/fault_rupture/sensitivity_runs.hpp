@@ -69,7 +69,7 @@ struct SensitivityRuns {
   }
 
   /// \return its summary \throws scarp::InputError where it has stopped early
-  nlohmann::json summary_of(SensitivityRun const& varied) const {
+  nlohmann::ordered_json summary_of(SensitivityRun const& varied) const {
     examples::print(stderr, "sensitivity run for {}: {}\n", varied.part, command_options(varied));
     scarp::CheckpointFiles nowhere;
     auto const own = folder / fmt::format("sensitivity_{}", varied.part);
@@ -78,7 +78,7 @@ struct SensitivityRuns {
     Start const start{nowhere, &writes, started};
     int const code = std::visit([&](auto const& one) { return run(varied.choice, one, start); }, scene);
     if (code != 0) scarp::reject("it has stopped early: see {}", (own / "summary.txt").string());
-    return nlohmann::json::parse(scarp::read_file(own / "summary.json"));
+    return nlohmann::ordered_json::parse(scarp::read_file(own / "summary.json"));
   }
 
   /// With the options that would run it alone.

@@ -18,7 +18,11 @@ namespace rve_lab {
 
 namespace {
 
-double largest_ratio(Row const& row) { return value(row, "mean_q") / value(row, "mean_p"); }
+/// 0 for a packing without pressure.
+double largest_ratio(Row const& row) {
+  double const p = value(row, "mean_p");
+  return p > 0.0 ? value(row, "mean_q") / p : 0.0;
+}
 
 void print_head() {
   examples::print(stdout, "{:>9} {:>11} {:>11} {:>7} {:>9} {:>6} {:>6} {:>9}\n", "strain", "p [Pa]", "q [Pa]", "q/p",

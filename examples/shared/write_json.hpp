@@ -11,7 +11,7 @@ namespace examples {
 /// Writes JSON, whatever the bytes of its names. \throws scarp::FileError
 template <class Json>
 void write_json(std::filesystem::path const& file, Json const& json) {
-  scarp::write_file(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  scarp::write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace examples

@@ -293,3 +293,12 @@ TEST_CASE("bounds that are negative or no number are refused, by name") {
   CHECK_NOTHROW(scarp::ErrorBudget(points, {.mesh = std::numeric_limits<double>::infinity()}));
   CHECK_REFUSED((scarp::Sensitivity{-14.0, -15.0, 25.0, std::nan("")}.part("mesh", "place")), "bound", "is nan");
 }
+
+TEST_CASE("a run of one step has no second path yet, and does not pass for exact") {
+  Points points(Relaxing{}, 50);
+  scarp::ErrorBudget budget(points, {}, {.points_per_tracked = 100, .tracked = {7}});
+  points.strain(increment, budget);
+  CHECK(part(budget.parts(), "accumulated") == -1.0);
+  points.strain(increment, budget);
+  CHECK(part(budget.parts(), "accumulated") > 0.0);
+}

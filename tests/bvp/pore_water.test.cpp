@@ -164,6 +164,39 @@ TEST_CASE("the water's stiffness is the derivative of its forces") {
                   scarp::WaterAtRest{.level = 10.0, .cavitation = 0.0});
 }
 
+TEST_CASE("a linear step ends where vapour begins, and a motion goes on with its part below") {
+  auto const grid = column_grid<Quad8>();
+  PoreWater water(grid, ConstantPermeability{.conductivity = 1e-9},
+                  {.shear_modulus = shear, .at_rest = scarp::WaterAtRest{.level = 10.0, .cavitation = 0.0}});
+  auto const own = water.extra_dofs();
+  Eigen::VectorXd const still = Eigen::VectorXd::Zero(grid.dof_count() + own);
+  auto const by = [&](double pressure) {
+    Eigen::VectorXd change = still;
+    change.tail(own).setConstant(pressure / water.scale());
+    return change;
+  };
+  auto const limited = [&](double last, double next) {
+    Eigen::VectorXd change = by(next);
+    water.limit(by(last), change);
+    return Eigen::VectorXd(water.scale() * change.tail(own));
+  };
+  // Absolute pressures of 98 kPa at the bottom and 88 kPa at the top, under 9 to 10 m of water.
+  auto const begins = limited(0.0, -1e6);
+  CHECK(begins.minCoeff() == Approx(-98.1e3).epsilon(1e-2));
+  CHECK(begins.maxCoeff() == Approx(-88.3e3).epsilon(1e-2));
+  CHECK(limited(0.0, -80e3) == water.scale() * by(-80e3).tail(own));
+  CHECK(limited(-120e3, -1e6) == water.scale() * by(-1e6).tail(own));  // linear where there is vapour already
+  water.at(1.0);
+  Eigen::VectorXd taken = still;
+  taken.tail(own) = begins / water.scale();
+  taken.tail(own).array() -= 500.0 / water.scale();
+  water.commit(grid.positions(), taken);
+  REQUIRE(water.vapour() > 0.0);
+  Eigen::VectorXd next = taken;  // the same motion again: 500 Pa of each are vapour's
+  water.limit(-taken, next);
+  CHECK((water.scale() * next.tail(own) + Eigen::VectorXd::Constant(own, 500.0)).cwiseAbs().maxCoeff() < 1e-3);
+}
+
 TEST_CASE("a sealed column keeps its volume, and stiff water takes the share of Skempton's B") {
   for (double const bulk : {infinite, 2.2e9, 1e7}) {
     for (bool const walls : {true, false}) {

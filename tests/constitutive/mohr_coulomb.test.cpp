@@ -452,3 +452,31 @@ TEST_CASE("a state that the strength of these points does not bear is rejected, 
   CHECK_NOTHROW(strong.require_fitting(end));
   CHECK_REFUSED(soil(0.35).require_fitting(end), "another law has made it", "0.35 rad");
 }
+
+TEST_CASE("softening ground that is nearly incompressible finds its strength, though to the last bit only") {
+  scarp::Random random(3);
+  scarp::MohrCoulomb<2, scarp::GeostaticStress<2>, scarp::SofteningStrength> const sand{
+      scarp::IsotropicElasticity::from_young_poisson(20e6, 0.4999),
+      {.peak = {.cohesion = 5e3, .friction = 0.6, .dilation = 0.15},
+       .residual = {.cohesion = 1e3, .friction = 0.5},
+       .softening_strain = 0.2},
+      {.surcharge = 100e3, .k0 = 0.8}};
+  int refused = 0;
+  for (int path = 0; path < 500; ++path) {
+    auto state = sand.initial_state({});
+    for (int step = 0; step < 10; ++step) {
+      double const stretch = random.uniform(-1.0, 1.0);
+      scarp::Gradient<2> const increment{{stretch, random.uniform(-1.0, 1.0)},
+                                         {random.uniform(-1.0, 1.0), -stretch * random.uniform(0.5, 1.0)}};
+      auto end = state;
+      refused += !sand.respond(state, 1e-2 * increment, end).verdict.acceptable();
+      state = end;
+    }
+  }
+  CHECK(refused == 0);  // else a hundred of them
+}
+
+TEST_CASE("stress that is no number lies outside of every strength") {
+  Vector<3> const stress(0.0, -1.0, std::numeric_limits<double>::quiet_NaN());
+  CHECK_FALSE(scarp::detail::mohr_coulomb_excess({.cohesion = 1e3}, stress) <= 0.0);
+}

@@ -7,8 +7,31 @@
 
 #include "contact/every_law.hpp"
 #include "scarp/simd/select.hpp"
+#include "support/refusals.hpp"
 
 namespace {
+
+/// Forces beyond a spring: across gaps up to `reach` [m], and against sliding.
+struct Oily {
+  static constexpr scarp::ContactInputs inputs{.shear = true, .motion = true};
+  double normal_stiffness = 1e6;
+  double drag = 0.0;   ///< [N s/m]
+  double range = 0.0;  ///< that it tells [m]
+  double reach = 0.0;
+
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
+    T const near =
+        scarp::lanes::select(approach.overlap > scarp::broadcast<T>(-reach), approach.overlap, scarp::broadcast<T>(0));
+    return {.normal = scarp::broadcast<T>(normal_stiffness) * near,
+            .shear = scarp::scaled(approach.tangential_increment, -scarp::broadcast<T>(drag) / approach.time_step)};
+  }
+  scarp::ContactStiffness stiffness(double, double) const {
+    return {.normal = normal_stiffness, .tangential = normal_stiffness};
+  }
+  double interaction_range() const { return range; }
+};
 
 template <class Law>
 concept Rubs = requires(Law& law) {
@@ -179,4 +202,12 @@ TEST_CASE("parameters of laws that mean no contact are refused by name") {
   refused(scarp::RollingResistance<scarp::LinearFrictional>{rough, 1.0, 0.1}, "friction of the contact law is nan");
   refused(scarp::CohesiveBond<scarp::LinearFrictional>{rough, 1.0, 0.1}, "friction of the contact law is nan");
   CHECK_NOTHROW(scarp::require_consistent(scarp::CohesiveBond<scarp::LinearFrictional>{linear, 1.0, inf}, 1.0));
+}
+
+TEST_CASE("a dashpot along the tangent alone, and a force beyond the range that the law tells, are rejected") {
+  CHECK_NOTHROW(scarp::require_consistent(Oily{}, 5e-3));
+  CHECK_REFUSED(scarp::require_consistent(Oily{.drag = 1.0}, 5e-3), "closes or slides", "damping_ratio()");
+  CHECK_NOTHROW(scarp::require_consistent(Oily{.range = 2e-3, .reach = 2e-3}, 5e-3));
+  CHECK_REFUSED(scarp::require_consistent(Oily{.range = 1e-6, .reach = 2e-3}, 5e-3), "across a gap of 1.005e-06 m",
+                "interaction_range() is 1e-06 m");
 }

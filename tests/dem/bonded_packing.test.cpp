@@ -101,3 +101,9 @@ TEST_CASE("grains without bonds are not asked for tension, nor for compression w
   scarp::CellDriver<samples::Discs> drive(packing, samples::study_law(), scarp::drained_compression<2>(1e-6, 0.0));
   CHECK(drive.step(stepper) == scarp::Verdict{scarp::Status::not_converged, scarp::Reason::unreachable});
 }
+
+TEST_CASE("a packing with bonds is not bonded again, and a gap must be within the range of every pair of species") {
+  auto const grains = samples::consolidated<samples::Discs>(80).packing;
+  auto const once = scarp::bonded(grains, samples::study_law(), cement(1.0));
+  CHECK_REFUSED(scarp::bonded(once.packing, cement(1.0), cement(2.0)), "has bonds already");
+}

@@ -127,3 +127,33 @@ TEST_CASE("loose grains have the step of the lightest between two others") {
   CHECK(scarp::critical_step(packing, smooth) ==
         samples::Approx(2.0 / std::sqrt(4.0 * smooth.normal_stiffness / lightest)).epsilon(1e-12));
 }
+
+namespace {
+/// A spring that yields: a hundredth as stiff beyond an overlap [m].
+struct Yielding {
+  static constexpr scarp::ContactInputs inputs{};
+  double normal_stiffness = 0.0;
+  double yield = 0.0;
+
+  template <int Dim, class T>
+  constexpr scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                                scarp::ContactMemory<Dim, T>&) const {
+    T const closed = scarp::lanes::at_least(approach.overlap, scarp::broadcast<T>(0));
+    T const elastic = scarp::lanes::at_most(closed, scarp::broadcast<T>(yield));
+    return {.normal =
+                scarp::broadcast<T>(normal_stiffness) * (elastic + scarp::broadcast<T>(0.01) * (closed - elastic))};
+  }
+  constexpr scarp::ContactStiffness stiffness(double overlap, double) const {
+    return {.normal = overlap < yield ? normal_stiffness : 0.01 * normal_stiffness};
+  }
+};
+}  // namespace
+
+TEST_CASE("the step of a law that softens with the overlap is that of its stiffest springs") {
+  using Soft = scarp::Packing<scarp::Disc, Yielding>;
+  auto elastic = samples::triangular_lattice<SmoothDiscs>(6, 5e-3, 9.95e-3);
+  auto yielding = samples::triangular_lattice<Soft>(6, 5e-3, 9.95e-3);
+  REQUIRE(scarp::TimeStepper<SmoothDiscs>{}.refresh(elastic, smooth).acceptable());
+  REQUIRE(scarp::TimeStepper<Soft>{}.refresh(yielding, {smooth.normal_stiffness, 1e-4}).acceptable());
+  CHECK(scarp::critical_step(yielding, {smooth.normal_stiffness, 1e-4}) == scarp::critical_step(elastic, smooth));
+}

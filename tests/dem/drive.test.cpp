@@ -8,6 +8,7 @@
 #include "../../examples/rve_biaxial/halved_path.hpp"
 #include "../../examples/shared/laboratory_loadings.hpp"
 #include "scarp/dem/loading.hpp"
+#include "support/approx.hpp"
 #include "support/packings.hpp"
 
 namespace {
@@ -115,4 +116,28 @@ TEST_CASE("a path in halved steps changes the stress less the smaller its steps 
   // An error of first order would fall to a tenth, before any contact slides it falls faster.
   CHECK(fine < 0.1 * coarse);
   CHECK(coarse < 1e-3);
+}
+
+TEST_CASE("the fastest strain is that of a component, however long the direction of a control is") {
+  scarp::ServoGains const gains{.fastest = 1e-4};
+  for (double const length : {1e-3, 1.0, 1e3}) {
+    scarp::Loading<2> const loading{.controls = {{length * scarp::Tensor<2>::Identity(), -1e9}}};
+    std::vector<double> steady;
+    auto const step = gains.strain_step<2>(loading, scarp::Tensor<2>::Zero(), 1e7, true, steady);
+    CHECK(step.cwiseAbs().maxCoeff() == samples::Approx(1e-4));
+  }
+}
+
+TEST_CASE("a servo looks at its last state, whatever the steps between its looks are") {
+  auto packing = samples::consolidated<Ellipses>(80).packing;
+  scarp::TimeStepper<Ellipses> stepper;
+  auto const held = Loading<2>::stress(scarp::VoigtStress<2>(-samples::pressure, -samples::pressure, 0.0));
+  scarp::Servo const servo{.stress_tolerance = 1e-2, .unbalanced_tolerance = 1e-2, .max_steps = 19, .check_every = 20};
+  CHECK(servo.reach(stepper, packing, samples::study_law(), held).acceptable());
+}
+
+TEST_CASE("grains that have passed through each other are no consolidated packing") {
+  auto const prepared = scarp::IsotropicPreparation{.pressure = 1e8}.prepare(
+      samples::loose_cloud<samples::Discs>(60, 1), samples::study_law());
+  CHECK(prepared.verdict == Verdict{Status::failed, Reason::too_deep});
 }

@@ -12,6 +12,7 @@
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/packings.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -126,4 +127,9 @@ TEST_CASE("spheres are mirrored across any axis, with their spins and contacts")
     }
     CHECK(apart() < 1e-4);  // 1e-7, or 1e-5 once a sphere without contacts is met, as above
   }
+}
+
+TEST_CASE("a normal of another length than one is rejected") {
+  CHECK_REFUSED(scarp::mirrored(samples::triangular_lattice<Discs>(4, 5e-3, 1e-2), scarp::Vector<2>(1.0, 1.0)),
+                "length of 1.41421");
 }

@@ -3,11 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scarp/contact/hertz_mindlin.hpp"
 #include "scarp/dem/fire.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/shape/clump.hpp"
 #include "support/approx.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
@@ -254,4 +257,24 @@ TEST_CASE("slender ellipses settle, needles too") {
     CHECK(made.packing.void_ratio() > 0.1);
     CHECK(made.packing.void_ratio() < 0.6);
   }
+}
+
+namespace {
+template <class PackingType, class Grading>
+double mean_upward_axis(Grading const& grading) {
+  auto const packing =
+      scarp::Cloud<Grading>{
+          .grading = grading, .grains = 2000, .density = samples::density, .thickness = samples::thickness}
+          .template make<PackingType>();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < packing.grain_count(); ++i) sum += static_cast<double>(packing.orientation(i, 1));
+  return sum / static_cast<double>(packing.grain_count());
+}
+}  // namespace
+
+TEST_CASE("the axes of a cloud point in all directions, of ellipses in half of them, which are all") {
+  using Trefoils = scarp::Packing<scarp::Trefoil, scarp::LinearFrictional>;
+  CHECK(std::abs(mean_upward_axis<Trefoils>(scarp::ClumpGrading<scarp::TrefoilTemplate>{4e-3, 6e-3})) < 1e-2);
+  CHECK(mean_upward_axis<Ellipses>(samples::grading<Ellipses>()) ==
+        samples::Approx(2.0 / std::numbers::pi).epsilon(1e-2));
 }

@@ -237,3 +237,53 @@ TEST_CASE("a packing whose list of pairs fails stays as it was") {
         scarp::Verdict{scarp::Status::failed, scarp::Reason::unconverged_normal});
   CHECK(packing == before);
 }
+
+TEST_CASE("a strain that is no number ends the step before anything moves") {
+  auto packing = samples::triangular_lattice<samples::Discs>(4, 5e-3, 9.9e-3);
+  auto const before = packing;
+  scarp::Tensor<2> strain = scarp::Tensor<2>::Zero();
+  strain(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  scarp::TimeStepper<samples::Discs> stepper;
+  CHECK(stepper.step(packing, samples::study_law(), strain) ==
+        scarp::Verdict{scarp::Status::failed, scarp::Reason::not_finite});
+  CHECK(packing.cell == before.cell);
+}
+
+namespace {
+/// A spring that tells the slip of its step as a loss.
+template <bool Shear>
+struct Telling {
+  static constexpr scarp::ContactInputs inputs{.shear = Shear, .motion = true};
+  double normal_stiffness = 0.0;
+
+  template <int Dim, class T>
+  constexpr scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                                scarp::ContactMemory<Dim, T>&) const {
+    T const none = scarp::broadcast<T>(0);
+    return {
+        .normal = scarp::broadcast<T>(normal_stiffness) * scarp::lanes::at_least(approach.overlap, none),
+        .dissipated = scarp::lanes::select(
+            approach.overlap > none, scarp::dot(approach.tangential_increment, approach.tangential_increment), none)};
+  }
+  template <int Dim, class T>
+  constexpr T stored_energy(scarp::ContactKinematics<Dim, T> const& approach,
+                            scarp::ContactMemory<Dim, T> const&) const {
+    return scarp::broadcast<T>(0) * approach.overlap;
+  }
+  constexpr scarp::ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness}; }
+};
+}  // namespace
+
+TEST_CASE_TEMPLATE("a law that names the motion is given the slip, whether or not it stores a shear force", Law,
+                   Telling<true>, Telling<false>) {
+  using Pair = scarp::Packing<scarp::Disc, Law>;
+  auto pair = samples::place<Pair>(scarp::Tensor<2>::Identity(), {{0.1}, {0.1}}, {{0.3, 0.5}, {0.49, 0.5}});
+  scarp::TimeStepper<Pair> stepper;
+  stepper.time_step_share = 1e-3;
+  scarp::Tensor<2> shear = scarp::Tensor<2>::Zero();
+  shear(1, 0) = 1e-4;
+  scarp::StepObservation<2> seen;
+  for (int k = 0; k < 2; ++k)
+    REQUIRE(stepper.template step<scarp::Observe::energy>(pair, Law{1.0}, shear, &seen).acceptable());
+  CHECK(std::sqrt(seen.contact_loss) == samples::Approx(1e-4 * 0.19 / 2.0).epsilon(1e-3));  // half of it is a turn
+}

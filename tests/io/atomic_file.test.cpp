@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "support/files.hpp"
@@ -106,5 +107,25 @@ TEST_CASE("a full disk is an error and not a shorter file") {
     auto const file = scarp::detail::open_file("/dev/full", "wb");
     CHECK(std::fwrite("text", 1, 4, file.get()) == 4);  // still in the buffer
     CHECK_FALSE(scarp::detail::flush(file.get(), scarp::Durability::handed_over));
+  }
+}
+
+TEST_CASE("what is no file is not replaced, and a link goes on leading to its file") {
+  ScratchFolder const folder;
+  auto const pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(samples::message_of<scarp::FileError>([&] { scarp::write_file(pipe, "text"); }) ==
+        samples::Naming{"it is a device or a pipe"});
+  CHECK(std::filesystem::is_fifo(pipe));
+  CHECK(samples::message_of<scarp::FileError>([&] { scarp::write_file("/dev/null", "text"); }) ==
+        samples::Naming{"it is a device or a pipe"});
+  std::filesystem::create_directory(folder / "disk");
+  for (char const* target : {"disk/old.csv", "disk/new.csv"}) {
+    if (std::string_view(target) == "disk/old.csv") scarp::write_file(folder / target, "old");
+    auto const link = folder / (std::string(target).substr(5) + ".link");
+    std::filesystem::create_symlink(target, link);
+    scarp::write_file(link, "new");
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(content(folder / target) == "new");
   }
 }

@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <sys/resource.h>
+
 #include <array>
 #include <bit>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -180,4 +183,29 @@ TEST_CASE("a log in a missing folder is refused") {
   CHECK(samples::message_of<scarp::FileError>([&] {
           static_cast<void>(scarp::CsvLog(folder / "missing/log.csv", {"a"}));
         }) == samples::Naming{"missing"});
+}
+
+TEST_CASE("a row that did not fit onto the disk leaves no part of it before the next one") {
+  ScratchFolder const folder;
+  scarp::CsvLog log(folder / "log.csv", {"step", "value"});
+  log.add(1, 1.25);
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  auto const handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit const full{std::filesystem::file_size(folder / "log.csv") + 2, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &full) == 0);
+  CHECK(samples::message_of<scarp::FileError>([&] { log.add(2, 1.0 / 3.0); }) == samples::Naming{"log.csv"});
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+  std::signal(SIGXFSZ, handler);
+  log.add(3, 2.5);
+  CHECK(content(folder / "log.csv") == "step,value\n1,1.25\n3,2.5\n");
+}
+
+TEST_CASE("a blank of another kind at the ends of a text comes back") {
+  scarp::CsvTable table({"name"});
+  table.add("\xC2\xA0sand\xC2\xA0");
+  ScratchFolder const folder;
+  table.write(folder / "t.csv");
+  CHECK(scarp::CsvColumns(content(folder / "t.csv"), "t.csv").texts("name") ==
+        std::vector<std::string>{"\xC2\xA0sand\xC2\xA0"});
 }

@@ -156,3 +156,10 @@ TEST_CASE("bytes of any kind are read or refused") {
   CHECK(refused > 100);
   CHECK(refused < 2000);
 }
+
+TEST_CASE("lines of blanks around the header do not hide what parts the cells") {
+  for (std::string_view const text : {" \nx;r\n1;2\n", "x;r\n \n1;2\n", "x\tr\n \t\n1\t2\n", ";\nx;r\n1;2\n"}) {
+    CAPTURE(text);
+    CHECK(table(text).column("r") == std::vector{2.0});
+  }
+}

@@ -80,3 +80,11 @@ TEST_CASE("a folder that cannot be written is refused with the system's reason")
   }
   CHECK(folder.file_count() == 2);
 }
+
+TEST_CASE("a lock that is a link is refused, and the file behind it stays") {
+  ScratchFolder const folder;
+  scarp::write_file(folder / "results", "of years");
+  std::filesystem::create_symlink("results", folder / "run.lock");
+  CHECK_THROWS_WITH_AS(FolderLock(folder.path()), doctest::Contains("cannot write into '"), FolderError);
+  CHECK(content(folder / "results") == "of years");
+}

@@ -201,3 +201,15 @@ TEST_CASE(
          "den"});
   CHECK(contains(content(folder / "f.vtu"), "Name=\"mean pressure &lt;kPa&gt; &amp; &quot;more&quot;\""));
 }
+
+TEST_CASE("a boundary is a picture of its facets, without regions") {
+  ScratchFolder const folder;
+  auto const mesh = samples::CrossedRectangle{}.generate();
+  auto const facets = scarp::facets_of(mesh, "bottom");
+  REQUIRE(scarp::boundary(mesh, "bottom").size() > 0);
+  CHECK(facets.count() == static_cast<int>(scarp::boundary(mesh, "bottom").size()));
+  scarp::write_vtu(folder / "bottom.vtu", facets, mesh.nodes);
+  auto const text = content(folder / "bottom.vtu");
+  CHECK(contains(text, fmt::format("NumberOfCells=\"{}\"", facets.count())));
+  CHECK_FALSE(contains(text, "region"));
+}

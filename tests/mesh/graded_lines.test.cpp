@@ -57,6 +57,7 @@ TEST_CASE("spacings and lines that cannot be are refused") {
   CHECK_REFUSED(scarp::Spacing({{0.0, 5.0}, {1.0, 0.0}}), "size at a knot of a spacing is 0");
   CHECK_REFUSED(scarp::Spacing({{not_a_number, 5.0}, {1.0, 5.0}}), "position of a knot");
   scarp::Spacing const spacing({{0.0, 0.1}, {1.0, 1.0}});
+  CHECK_REFUSED(scarp::graded_lines(scarp::Spacing({{0.0, 1e-9}, {1.0, 1e-9}}), {0.0, 4.3}), "4.3e+09 cells");
   CHECK_REFUSED(scarp::graded_lines(spacing, {}), "0 positions");
   CHECK_REFUSED(scarp::graded_lines(spacing, {0.0, 0.0}), "positions must increase");
   CHECK_REFUSED(scarp::graded_lines(spacing, {-0.2, 1.0}), "within the knots");  // the size falls to zero at -0.11

@@ -137,3 +137,15 @@ TEST_CASE("a boundary without facets is refused to whoever asks for it") {
   CHECK_REFUSED(scarp::boundary(mesh, "drain"), "the boundary 'drain' has no facets");
   CHECK_REFUSED(scarp::boundary_nodes(mesh, "drain"), "the boundary 'drain' has no facets");
 }
+
+TEST_CASE("elements that overlap are refused with their numbers") {
+  auto twice = square();
+  twice.elements.push_back({1, 2, 0});
+  twice.element_region.push_back(1);
+  CHECK(complaint(twice) == Naming{"elements 0 and 2 lie on the same side of the facet"});
+  auto folded = square();  // a third element at one facet
+  folded.nodes.push_back({0.9, 0.1});
+  folded.elements.push_back({0, 4, 2});
+  folded.element_region.push_back(1);
+  CHECK(complaint(folded) == Naming{"lie on the same side"});
+}

@@ -121,3 +121,15 @@ TEST_CASE("shares, ends, units and points that cannot be are refused") {
     CHECK_REFUSED(series.attempted(problem, accepted(0.0)), fmt::format("point {} is to be observed", point));
   }
 }
+
+TEST_CASE("a share is met by a load that is a sum of steps") {
+  ScratchFolder const folder;
+  OnePoint const problem(sand());
+  scarp::PackingSeries series(folder.path(), "A", 0, 1.0, {0.0, 0.5, 1.0}, {1.0});
+  double load = 0.0;  // 0.5 and 1 are met from below
+  for (int step = 0; step <= 20; ++step, load += 0.05) series.attempted(problem, accepted(load));
+  auto const at = scarp::CsvColumns(scarp::read_file(folder / "packings/A.csv"), "A.csv").column("load");
+  REQUIRE(at.size() == 3);
+  CHECK(at[1] == samples::Approx(0.5));
+  CHECK(at[2] == samples::Approx(1.0));
+}

@@ -240,3 +240,23 @@ TEST_CASE("discs of the templates are as far apart as they say") {
   for (std::size_t k = 0; k < 4; ++k) CHECK(square[k] == samples::Approx(1.4));
   for (std::size_t k = 4; k < 6; ++k) CHECK(square[k] == samples::Approx(1.4 * std::numbers::sqrt2));
 }
+
+TEST_CASE("discs that touch, from outside or inside, count as touching to round-off, wherever they lie") {
+  auto const area = [](ClumpMember const& one, ClumpMember const& other) {
+    return scarp::disc_union(std::array{one, other}).area;
+  };
+  constexpr double pi = std::numbers::pi;
+  CHECK(area({0.0, 0.0, 0.2}, {-1.2, 0.0, 1.0}) == samples::Approx(1.04 * pi).epsilon(1e-9));
+  CHECK(area({0.1, 0.0, 0.1}, {-0.4, 0.0, 0.4}) == samples::Approx(0.17 * pi).epsilon(1e-9));
+  CHECK(area({0.0, 0.0, 0.5}, {0.4, 0.0, 0.1}) == samples::Approx(0.25 * pi).epsilon(1e-9));
+  scarp::Random random(3);
+  for (int k = 0; k < 500; ++k) {
+    double const r = 0.1 * std::ceil(random.uniform(0.1, 9.0)), s = 0.1 * std::ceil(random.uniform(0.1, 9.0));
+    double const turn = k % 4 == 0 ? 0.0 : k % 4 == 1 ? pi / 2.0 : random.uniform(-pi, pi);
+    for (double const apart : {r + s, std::abs(r - s)}) {
+      double const expected = apart == r + s ? r * r + s * s : std::max(r, s) * std::max(r, s);
+      CHECK(area({0.0, 0.0, r}, {apart * std::cos(turn), apart * std::sin(turn), s}) ==
+            samples::Approx(expected * pi).epsilon(1e-6));
+    }
+  }
+}

@@ -8,7 +8,9 @@
 #include "minimum_translation_by_search.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/dem/packing.hpp"
+#include "scarp/dem/packing_picture.hpp"
 #include "scarp/shape/ellipse.hpp"
+#include "scarp/shape/with_species.hpp"
 #include "support/approx.hpp"
 #include "support/refusals.hpp"
 
@@ -24,7 +26,7 @@ struct Oblong : scarp::ConvexShape<Oblong, 2> {
   static T support(std::array<T, 2> const& size, T const& cosine, T const& sine) {
     T const x = size[0] * cosine, y = size[1] * sine;
     T const square = x * x + y * y;
-    return square / sqrt(square);
+    return -(-square / sqrt(square));
   }
 };
 
@@ -129,4 +131,11 @@ TEST_CASE("grains that are not convex, are off their centre or have a wrong clos
   CHECK_NOTHROW(scarp::Population<Oblong>({{5e-3, 4e-3}}, 2650.0, 1.0));
   CHECK_REFUSED(scarp::Population<Wide>({{2.0, 1.0}}, 2650.0, 1.0), "content of a grain", "is 8 (", "has 6.28319");
   CHECK_REFUSED(scarp::Population<Heavy>({{5e-3, 4e-3}}, 2650.0, 1.0), "radius of gyration", "correct");
+}
+
+TEST_CASE("only discs and ellipses are drawn by their half axes") {
+  using Law = scarp::LinearFrictional;
+  static_assert(scarp::HasPicture<scarp::Packing<Ellipse, Law>>);
+  static_assert(scarp::HasPicture<scarp::Packing<scarp::WithSpecies<Ellipse, 2>, Law>>);
+  static_assert(!scarp::HasPicture<scarp::Packing<Triangle, Law>>);
 }

@@ -104,7 +104,10 @@ class ErrorBudget : public NeverStops {
       add("time", field_size_ > 0.0 ? time_error_ / field_size_ : 0.0, bounds_.time,
           "largest estimated error of the field in one time step, over its largest value");
     }
-    if (adds_up_work_) add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
+    // The work and the second paths begin with the first accepted step.
+    bool const has_path = tracked_.steps > 1;
+    if (adds_up_work_ && has_path)
+      add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
     add("linear_residual", linear_residual_,
         iterates_equations_ ? bounds_.iterated_linear_residual : bounds_.linear_residual, "largest of a linear system");
     add("condition", condition_, bounds_.condition, "largest estimate for a stiffness");
@@ -125,7 +128,7 @@ class ErrorBudget : public NeverStops {
           "of the most strained points");
       add("doubling_largest", nan_max(samples_.spread.largest(), samples_.strained.largest()), none, "of one sample");
     }
-    if (tracked_.any()) {
+    if (tracked_.any() && has_path) {
       add("accumulated", tracked_.together(), bounds_.accumulated,
           "the same when all increments take it: what points have in common, root mean square over the steps");
       add("accumulated_apart", tracked_.apart(), none, "the same of single points");

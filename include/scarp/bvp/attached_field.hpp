@@ -43,7 +43,9 @@ struct FieldTimeError {
 /// residual; residual(unbalanced): imbalance of its own equations, relative to its own measure, shape (extra_dofs);
 /// describe(number): a degree of freedom in words; nodal_fields() and ground_force(), what it does to the mesh [N],
 /// shape (dof_count of the mesh): committed; time_error(), where it has one: `FieldTimeError` of the step whose
-/// forces were requested last; grid(), where it has one: that it was made of, which must be the problem's.
+/// forces were requested last; grid(), where it has one: that it was made of, which must be the problem's;
+/// limit(last, next), where its equations have kinks: moves an iterate back to a kink that a linear step from the
+/// last one has passed without seeing it, both increments of shape (degrees of freedom of the problem).
 template <class Part>
 concept FieldAttachment = Part::is_field &&
     requires(Part& part, Part const& constant, Eigen::VectorXd const& unbalanced) {
@@ -75,6 +77,7 @@ class AttachedField : public Attached<Dim> {
   virtual std::string describe(int number) const = 0;
   virtual std::vector<NodalField> nodal_fields() const = 0;
   virtual Eigen::VectorXd ground_force() const = 0;
+  virtual void limit(Eigen::VectorXd const& last, Eigen::VectorXd& next) const = 0;  ///< Nothing where it has no kink.
   virtual Grid<Dim> const* grid() const = 0;  ///< that it was made of; null for what names none
 
   /// first: its first degree of freedom
@@ -112,6 +115,9 @@ class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
   std::string describe(int number) const override { return part_.describe(number); }
   std::vector<NodalField> nodal_fields() const override { return part_.nodal_fields(); }
   Eigen::VectorXd ground_force() const override { return part_.ground_force(); }
+  void limit(Eigen::VectorXd const& last, Eigen::VectorXd& next) const override {
+    if constexpr (requires { part_.limit(last, next); }) part_.limit(last, next);
+  }
   Grid<Dim> const* grid() const override {
     if constexpr (requires { part_.grid(); }) return &part_.grid();
     return nullptr;

@@ -29,12 +29,13 @@ using DefaultGrid = Discretisation<Element, UpdatedLagrangian, DefaultIntegratio
 
 #ifdef SCARP_PRECOMPILED
 /// DECLARE: `extern template`, or `template` in the library.
-#define SCARP_GRIDS(DECLARE) \
-  SCARP_GRID(DECLARE, Tri3) SCARP_GRID(DECLARE, Tri6) SCARP_GRID(DECLARE, Quad4) SCARP_GRID(DECLARE, Quad8)
 #define SCARP_GRID(DECLARE, ELEMENT)           \
   DECLARE void validate(Mesh<ELEMENT> const&); \
   DECLARE class Discretisation<ELEMENT, UpdatedLagrangian, DefaultIntegration<ELEMENT>>;
-SCARP_GRIDS(extern template)
+SCARP_GRID(extern template, Tri3)
+SCARP_GRID(extern template, Tri6)
+SCARP_GRID(extern template, Quad4)
+SCARP_GRID(extern template, Quad8)
 #endif
 
 }  // namespace scarp

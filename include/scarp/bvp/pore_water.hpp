@@ -122,6 +122,9 @@ class PoreWater {
     double const volume = unbalanced.norm() / scale_;
     return volume == 0.0 ? 0.0 : volume / std::max(trial_.displaced, 1e-3 * most_displaced_);
   }
+  void limit(Values const& last, Values& next) const {  ///< Where vapour begins, see `FieldAttachment`.
+    if (vapour_) vapour_->limit(boundaries_.unknowns(), view(pressure_), scale_, last.tail(extra_dofs()), next);
+  }
   std::string describe(int number) const {
     return "pore pressure at " + field_.describe(boundaries_.unknowns()[detail::index(number)]);
   }
@@ -164,7 +167,10 @@ class PoreWater {
   auto describe_corner() const {
     return [this](int corner) { return field_.describe(corner); };
   }
-  void exclude(std::vector<int> const& elements);
+  void exclude(std::vector<int> const& elements) {
+    boundaries_.take_out(field_.exclude(elements), describe_corner());
+    if (settings_.at_rest) vapour_.emplace(field_, *settings_.at_rest, vapour_modulus);
+  }
 
   PoreWaterSettings settings_;
   Field field_;
@@ -195,12 +201,6 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
   auto const dry = detail::above(field_, settings.at_rest->level);
   prescribe(dry.corners, 0.0);
   exclude(dry.elements);
-}
-
-template <class GridType, HydraulicProvider Flow>
-void PoreWater<GridType, Flow>::exclude(std::vector<int> const& elements) {
-  boundaries_.take_out(field_.exclude(elements), describe_corner());
-  if (settings_.at_rest) vapour_.emplace(field_, *settings_.at_rest, vapour_modulus);
 }
 
 template <class GridType, HydraulicProvider Flow>

@@ -163,6 +163,9 @@ struct MohrCoulomb {
       double const gap = before + shear_of(returned.plastic_strain) - middle;
       plastic_shear = middle;
       if (!returned.found || std::abs(gap) <= 1e-14 * (high - before) + 1e-16) return returned;
+      // Near incompressibility one bit of the shear changes the gap by more than that. It jumps where there is no root.
+      bool const to_the_bit = std::abs(high - low) <= 4.0 * std::numeric_limits<double>::epsilon() * middle;
+      if (to_the_bit && std::abs(gap) <= 1e-9 * middle) return returned;
       if (gap * gap_high < 0.0) {
         low = high;
         gap_low = gap_high;

@@ -41,7 +41,7 @@ void require_consistent(Law const& law, double radius) {
         "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
   }
-  auto const normal_force = [&](double overlap, double closing) {
+  auto const forces = [&](double overlap, double closing, double sliding = 0.0) {
     ContactMemory<2, double> memory;
     if constexpr (Bonds<Law>) {
       if (overlap < 0.0) Law::bond(memory);
@@ -50,25 +50,27 @@ void require_consistent(Law const& law, double radius) {
                                                 .slip_increment = 0.0,
                                                 .reduced_radius = radius / 2.0,
                                                 .overlap_increment = closing,
+                                                .tangential_increment = sliding,
                                                 .reduced_mass = 1.0,
                                                 .time_step = 1e-6};
-    return law.respond(approach, memory).normal;
+    return law.respond(approach, memory);
   };
+  auto const still = forces(depth, 0.0);
   if (Law::inputs.motion && damping_ratio_of(law) == 0.0 &&
-      normal_force(depth, 1e-3 * depth) != normal_force(depth, 0.0)) {
+      (forces(depth, 1e-3 * depth).normal != still.normal || forces(depth, 0.0, 1e-3 * depth).shear != still.shear)) {
     reject(
-        "the contact law's normal force depends on how fast the contact closes (it has no damping_ratio(), or one of "
+        "the contact law's force depends on how fast the contact closes or slides (it has no damping_ratio(), or one "
+        "of "
         "0, so the time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
         "critical damping that its dashpots reach");
   }
-  if (reach > 0.0) return;
-  double const force = normal_force(-depth, 0.0);
+  double const gap = reach + depth;
+  double const force = forces(-gap, 0.0).normal;
   if (force != 0.0) {
     reject(
-        "the contact law has a force of {} N across a gap of {} m (it has no interaction_range(), so pairs that far "
-        "apart would be "
-        "left out): give it `double interaction_range() const` [m], or no force without overlap",
-        force, depth);
+        "the contact law has a force of {} N across a gap of {} m (its interaction_range() is {} m, so pairs that far "
+        "apart would be left out): give it as far as the force reaches, or no force beyond it",
+        force, gap, reach);
   }
 }
 

@@ -24,16 +24,19 @@ struct [[nodiscard]] BondedPacking {
 /// Grains are at rest, contacts retain their shear forces and moments, so that a packing in balance stays so where
 /// both laws have equal springs and no gap is bonded: a bond across a gap pulls.
 /// \throws InputError for a gap that is negative or beyond the law's range, where it breaks at once, for a packing
-/// without grains, and for a law that `require_consistent` rejects
+/// without grains, one under a law with bonds, and for a law that `require_consistent` rejects
 template <Bonds Law, class PackingType>
 BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> bonded(
     PackingType grains, typename PackingType::Law const& former, Law const& law, double gap = 0.0) {
   require_population(grains);
   require_not_negative("gap that is bonded", gap);
   require_consistent(law, grains.population->largest_radius());
-  if (gap > interaction_range_of(law))
-    reject("gaps up to {} m are to be bonded (these bonds break beyond {} m): give a smaller gap", gap,
-           interaction_range_of(law));
+  if constexpr (Bonds<typename PackingType::Law>)
+    reject("the packing's law has bonds already (bonded anew it would lose those that pull): bond a packing once");
+  double range = interaction_range_of(law);
+  for_each_law(law, [&](auto const& one) { range = std::min(range, interaction_range_of(one)); });
+  if (gap > range)
+    reject("gaps up to {} m are to be bonded (these bonds break beyond {} m): give a smaller gap", gap, range);
   BondedPacking<Packing<typename PackingType::Shape, Law, typename PackingType::Scalar>> made;
   if (gap > grains.pairs.skin - grains.pairs.drift) grains.pairs.drift = std::numeric_limits<double>::infinity();
   TimeStepper<PackingType> stepper;

@@ -101,7 +101,8 @@ struct Cloud {
       if constexpr (Shape::orientation_count == 2) {
         // Golden-ratio sequence: evenly spread axes, unrelated to the order of sizes.
         double const golden = std::numbers::phi * static_cast<double>(i) + first_axis;
-        double const angle = std::numbers::pi * (golden - std::floor(golden));
+        constexpr double turn = (is_point_symmetric<Shape>() ? 1.0 : 2.0) * std::numbers::pi;
+        double const angle = turn * (golden - std::floor(golden));
         packing.orientation(i, 0) = static_cast<Scalar>(std::cos(angle));
         packing.orientation(i, 1) = static_cast<Scalar>(std::sin(angle));
       }

@@ -76,13 +76,14 @@ SCARP_HOST_DEVICE constexpr PairForces<Shape::dim, T> contact_response(Law const
       meeting[a] = pair.velocity[a] * move.duration + swing_second[a] - swing_first[a];
       for (std::size_t b = 0; b < axes; ++b) meeting[a] += move.gradient[a * axes + b] * pair.branch[b];
     }
+    auto const slip = tangential_part(meeting, n);
     if constexpr (Law::inputs.shear) {
-      approach.slip_increment = tangential_part(meeting, n);
+      approach.slip_increment = slip;
       if constexpr (dim == 3) carry_to_frame(memory.shear, twist, n);
     }
     if constexpr (Law::inputs.motion) {
       approach.overlap_increment = -dot(meeting, n);
-      approach.tangential_increment = approach.slip_increment;
+      approach.tangential_increment = slip;
       if constexpr (Law::inputs.shear) approach.slip_increment = scaled(approach.slip_increment, move.unapplied);
       approach.reduced_mass = broadcast<T>(1.0) / pair.inverse_mass;
       approach.time_step = move.duration;

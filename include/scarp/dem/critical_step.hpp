@@ -41,6 +41,20 @@ constexpr ContactStiffness dashpots_of(ContactStiffness const& stiffness, double
   return {.normal = beside(stiffness.normal), .tangential = beside(stiffness.tangential)};
 }
 
+/// The stiffest springs that a law has up to an overlap [m], since those of a law that yields or saturates soften.
+template <class Law>
+constexpr ContactStiffness stiffest_springs(Law const& law, double deepest, double radius) {
+  ContactStiffness most = law.stiffness(deepest, radius);
+  auto const raise = [](double& known, double other) { known = other > known ? other : known; };
+  for (double depth = deepest / 4.0; depth > 1e-4 * deepest; depth /= 4.0) {
+    ContactStiffness const springs = law.stiffness(depth, radius);
+    raise(most.normal, springs.normal);
+    raise(most.tangential, springs.tangential);
+    raise(most.rolling, springs.rolling);
+  }
+  return most;
+}
+
 /// How deep the grains of a near pair can get before the list is made anew [m].
 template <class PackingType>
 double deepest_overlap(PackingType const& packing, Contact<PackingType::dim> const& contact) {
@@ -112,7 +126,8 @@ double critical_step(PackingType const& packing, typename PackingType::Law const
     auto const stiffest = [&](ContactStiffness const& springs) {
       return detail::stiffest_mode<dim>(contact, springs, centres, spin(contact.first), spin(contact.second));
     };
-    auto const springs = law.stiffness(detail::deepest_overlap(packing, contact), contact.approach.reduced_radius);
+    auto const springs =
+        detail::stiffest_springs(law, detail::deepest_overlap(packing, contact), contact.approach.reduced_radius);
     double step = 2.0 / std::sqrt(stiffest(springs));
     if (ratio > 0.0) {
       double const reduced_mass = 1.0 / (inverse_mass(contact.first) + inverse_mass(contact.second));
@@ -127,7 +142,8 @@ double critical_step(PackingType const& packing, typename PackingType::Law const
     lightest = std::max(lightest, static_cast<double>(population.inverse_mass()[i]));
   }
   double const stiffest =
-      4.0 * law.stiffness(std::max(packing.pairs.skin, 0.0), population.largest_radius()).normal * lightest;
+      4.0 * detail::stiffest_springs(law, std::max(packing.pairs.skin, 0.0), population.largest_radius()).normal *
+      lightest;
   return 2.0 / std::sqrt(stiffest) * (std::sqrt(1.0 + ratio * ratio) - ratio);
 }
 

@@ -40,12 +40,13 @@ struct ServoGains {
       auto const& control = loading.controls[k];
       double const missing = control.missing(stress);
       double const correction = missing / (modulus * response_steps);
+      double const most = fastest / control.direction.cwiseAbs().maxCoeff();
       if (learns) {
-        steady[k] = std::clamp(steady[k] + correction / (learning_steps * response_steps), -fastest, fastest);
+        steady[k] = std::clamp(steady[k] + correction / (learning_steps * response_steps), -most, most);
       }
-      double size = std::clamp(correction + steady[k], -fastest, fastest);
+      double size = std::clamp(correction + steady[k], -most, most);
       if (!jammed && control.direction.trace() > 0.0 && control.target < 0.0 && missing < nearly_all * control.target)
-        size = -fastest;
+        size = -most;
       step += size * control.direction;
     }
     return step;
@@ -177,7 +178,8 @@ struct Servo {
   }
 
   /// Steps until held stresses and unbalanced ratio are within their tolerances.
-  /// \return not_converged / unreachable or unbalanced after `max_steps`, or at once for a target no packing can carry
+  /// \return not_converged / unreachable or unbalanced after `max_steps`, or at once for a target no packing can carry;
+  /// failed / too_deep for grains that have passed through each other
   template <class Stepper, class PackingType>
   Verdict reach(Stepper& stepper, PackingType& packing, typename PackingType::Law const& law,
                 Loading<PackingType::dim> const& loading) const {
@@ -190,7 +192,8 @@ struct Servo {
     for (long step = 1; step <= max_steps; ++step) {
       InterruptionCheck::run();
       if (Verdict const verdict = drive.step(stepper); !verdict.acceptable()) return verdict;
-      if (step % check_every != 0) continue;
+      if (step % check_every != 0 && step != max_steps) continue;
+      if (drive.seen().deepest_overlap > 1.0) return {Status::failed, Reason::too_deep};  // of the reduced radius
       if (loading.worst_missing(drive.seen().stress) <= tolerance &&
           drive.seen().unbalanced_ratio <= unbalanced_tolerance)
         return {};

@@ -17,15 +17,34 @@ struct StressControl {
   Tensor<Dim> direction = Tensor<Dim>::Zero();  ///< D, symmetric
   double target = 0.0;                          ///< [Pa], tension positive
 
+  /// Whether a strain is negative in some direction: a principal minor is.
+  static bool shortens_some(Tensor<Dim> const& strain) {
+    double const size = strain.norm();
+    double const slight = -1e-12 * size * size;
+    auto const minor = [&](int a, int b) { return strain(a, a) * strain(b, b) - strain(a, b) * strain(b, a); };
+    bool some = false;
+    for (int a = 0; a < Dim; ++a) {
+      some = some || strain(a, a) * size < slight;
+      for (int b = 0; b < a; ++b) some = some || minor(a, b) < slight;
+    }
+    if constexpr (Dim == 3) {
+      double const determinant = strain(0, 0) * minor(1, 2) -
+                                 strain(0, 1) * (strain(1, 0) * strain(2, 2) - strain(1, 2) * strain(2, 0)) +
+                                 strain(0, 2) * (strain(1, 0) * strain(2, 1) - strain(1, 1) * strain(2, 0));
+      some = some || determinant < slight * size;
+    }
+    return some;
+  }
+
   /// Target minus the held component of a stress [Pa].
   double missing(Tensor<Dim> const& stress) const {
     return target - stress.cwiseProduct(direction).sum() / direction.squaredNorm();
   }
-  /// Grains without bonds carry pressure only.
+  /// Grains without bonds carry pressure only: no stress whose component along D is above zero where D extends every
+  /// direction, or below where it shortens every one.
   bool reachable(bool bonded) const {
-    constexpr double round_off = 1e-12;
-    bool const deviatoric = std::abs(direction.trace()) <= round_off * direction.norm();
-    return std::isfinite(target) && (bonded || deviatoric || target < 0.0);
+    if (!std::isfinite(target)) return false;
+    return bonded || ((target < 0.0 || shortens_some(direction)) && (target > 0.0 || shortens_some(-direction)));
   }
 };
 

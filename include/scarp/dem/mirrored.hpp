@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -16,6 +17,7 @@ namespace scarp {
 /// as far as the damping, which acts on components, allows. Where a packing is by accident stiffer to one side, its
 /// image is stiffer to the other. normal: of length 1. For spheres, and for plane shapes that are symmetric about the
 /// axis of their orientation and the one across, as ellipses are; the image of a clump is another clump.
+/// \throws InputError for a normal of another length
 template <class PackingType>
   requires((PackingType::dim == 2 || PackingType::Shape::orientation_count == 0) &&
            part_count<typename PackingType::Shape>() == 1)
@@ -23,6 +25,8 @@ PackingType mirrored(PackingType packing, Vector<PackingType::dim> const& normal
   using Shape = typename PackingType::Shape;
   using Law = typename PackingType::Law;
   constexpr int dim = PackingType::dim;
+  if (!(std::abs(normal.norm() - 1.0) <= 1e-9))
+    reject("the normal of a mirror has a length of {} (1 is expected): divide by it", normal.norm());
   Tensor<dim> const mirror = reflection<dim>(normal);
   auto const map = [&](auto& columns, double sign, std::size_t rows) {
     for (std::size_t row = 0; row < rows; ++row) {

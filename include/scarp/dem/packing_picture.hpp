@@ -1,22 +1,39 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <vector>
 
 #include "scarp/dem/contacts.hpp"
 
 namespace scarp {
 
+struct Disc;
+struct Ellipse;
+
 namespace detail {
-/// Lengths among the numbers of a grain's size.
+/// A shape without the species of its grains.
 template <class Shape>
-inline constexpr int length_count = Shape::size_count - (species_count<Shape>() > 0 ? 1 : 0);
+struct BareShape {
+  using Type = Shape;
+};
+template <class Shape>
+  requires requires { typename Shape::Bare; }
+struct BareShape<Shape> {
+  using Type = typename Shape::Bare;
+};
+/// Half axes among the numbers of a grain's size; 0 for grains that are neither discs nor ellipses.
+template <class Shape>
+inline constexpr std::size_t half_axes = std::same_as<typename BareShape<Shape>::Type, Disc>      ? 1
+                                         : std::same_as<typename BareShape<Shape>::Type, Ellipse> ? 2
+                                                                                                  : 0;
 }  // namespace detail
 
 /// Whether `packing_picture` accepts packings of this type: discs and ellipses in the plane.
 template <class PackingType>
-concept HasPicture = PackingType::dim == 2 && detail::length_count<typename PackingType::Shape> <= 2 &&
-                     part_count<typename PackingType::Shape>() == 1;
+concept HasPicture = detail::half_axes<typename PackingType::Shape>
+!= 0;
 
 /// A plane packing as a drawing needs it, whatever its grains and its contact law are.
 struct PackingPicture {
@@ -48,7 +65,7 @@ PackingPicture packing_picture(PackingType const& packing, typename PackingType:
     auto const size = packing.population->size(i);
     PackingPicture::Grain grain{{packing.position(i, 0), packing.position(i, 1)},
                                 size.front(),
-                                size[detail::index(detail::length_count<typename PackingType::Shape> - 1)]};
+                                size[detail::half_axes<typename PackingType::Shape> - 1]};
     if constexpr (PackingType::Shape::orientation_count == 2) {
       grain.axis = {static_cast<double>(packing.orientation(i, 0)), static_cast<double>(packing.orientation(i, 1))};
     }

@@ -53,7 +53,10 @@ class Population {
       double const content = Shape::content(grain);
       double const mass = density * content * thickness;
       double const inertia = mass * Shape::gyration_squared(grain);
-      if (!(std::isnormal(mass) && std::isnormal(inertia) && std::isfinite(1.0 / inertia))) {
+      auto const fits = [](double value) {
+        return std::isnormal(value) && std::isnormal(static_cast<Scalar>(1.0 / value));
+      };
+      if (!(fits(mass) && fits(inertia))) {
         reject(
             "a grain of size {} has a mass of {} kg and an inertia of {} kg m2 (beyond what a number here can hold): "
             "check "

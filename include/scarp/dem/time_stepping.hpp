@@ -170,6 +170,7 @@ class TimeStepper {
   template <Observe what>
   Verdict step_here(PackingType& packing, Law const& law, Tensor<dim> const& strain_step,
                     StepObservation<dim>* observed) {
+    if (!strain_step.allFinite()) return {Status::failed, Reason::not_finite};
     if (Verdict const verdict = look<what>(packing, law, observed); !verdict.acceptable()) return verdict;
     double const time_step = time_step_share * packing.pairs.critical_step;
     if constexpr (SeesAllGrains<Damping, PackingType>)

@@ -33,7 +33,9 @@ class AppendedFile {
   void add(std::string_view line) {
     if (!file_) open_behind();
     if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0) {
-      detail::throw_not_written(path_, std::strerror(errno));
+      std::string const why = std::strerror(errno);
+      file_.reset();  // the next line replaces what stands there of this one
+      detail::throw_not_written(path_, why);
     }
     bytes_ += line.size();
   }

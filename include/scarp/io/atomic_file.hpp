@@ -103,6 +103,20 @@ inline bool flush_folder(std::filesystem::path const& folder) {
 #endif
 }
 
+/// The file that a name leads to, through links; itself where there is none.
+/// \throws FileError for what a file must not replace
+inline std::filesystem::path replaceable(std::filesystem::path const& name) {
+  std::error_code none;
+  auto const there = std::filesystem::status(name, none);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    throw FileError(fmt::format("cannot write '{}' (it is a {}): give the name of a file", name.string(),
+                                std::filesystem::is_directory(there) ? "folder" : "device or a pipe"));
+  auto end = name;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(end, none); ++links)
+    end = end.parent_path() / std::filesystem::read_symlink(end, none);  // an absolute one stands for itself
+  return end;
+}
+
 }  // namespace detail
 
 /// Makes a folder, with those above it, where it is missing.
@@ -115,13 +129,13 @@ inline void make_folder(std::filesystem::path const& folder) {
 }
 
 /// Writes a whole file: either all of `content` stands under `path` afterwards, or what was there before.
-/// The content goes to a temporary name in the same folder, which then replaces the old file.
-/// \throws FileError when the folder is missing or not writable, or the disk is full
-inline void write_file(std::filesystem::path const& path, std::string_view content,
+/// The content goes to a temporary name in the same folder, which then replaces the old file; a link stays, and the file
+/// that it leads to is replaced.
+/// \throws FileError when the folder is missing or not writable, the disk is full, or the name is that of a folder, a
+/// device or a pipe
+inline void write_file(std::filesystem::path const& name, std::string_view content,
                        Durability durability = Durability::handed_over) {
-  if (detail::is_folder(path)) {
-    throw FileError(fmt::format("cannot write '{}' (it is a folder): give the name of a file", path.string()));
-  }
+  auto const path = detail::replaceable(name);
   auto const partial = detail::partial_name(path);
   std::error_code trouble;
   {

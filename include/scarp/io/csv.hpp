@@ -16,6 +16,7 @@
 #include "scarp/core/error.hpp"
 #include "scarp/io/appended_file.hpp"
 #include "scarp/io/read_file.hpp"
+#include "scarp/io/text_lines.hpp"
 
 namespace scarp {
 
@@ -27,10 +28,7 @@ template <class Value>
 std::string csv_cell(Value const& value) {
   if constexpr (std::convertible_to<Value const&, std::string_view>) {
     std::string_view const text = value;
-    constexpr std::string_view blanks = " \t";
-    bool const blank_ends =
-        !text.empty() && (blanks.find(text.front()) != blanks.npos || blanks.find(text.back()) != blanks.npos);
-    if (!blank_ends && text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    if (trimmed(text).size() == text.size() && text.find_first_of(",\"\r\n") == std::string_view::npos) {
       return std::string(text);
     }
     std::string quoted = "\"";

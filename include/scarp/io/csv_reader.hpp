@@ -36,9 +36,14 @@ class CsvScanner {
       separator_ = first.back();
       lines_ = ahead;
     } else {
-      while (first.empty() && !ahead.done()) first = ahead.take();
+      auto const is_bare = [](std::string_view line) { return line.find_first_not_of(" \t;,") == line.npos; };
+      auto const skip_bare = [&](std::string_view line) {
+        while (is_bare(line) && !ahead.done()) line = ahead.take();
+        return is_bare(line) ? std::string_view() : line;
+      };
+      first = skip_bare(first);
       // Names may hold commas, as in `q, kPa;p, kPa`; the second line has fewer.
-      std::string_view const second = ahead.done() ? std::string_view() : ahead.take();
+      std::string_view const second = skip_bare({});
       auto const least = [&](char one) {
         return second.empty() ? outside_quotes(first, one)
                               : std::min(outside_quotes(first, one), outside_quotes(second, one));

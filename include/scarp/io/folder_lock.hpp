@@ -77,7 +77,7 @@ class FolderLock {
 #ifdef SCARP_HAS_FILE_LOCKS
     void lock(std::filesystem::path const& folder) {
       for (;;) {
-        file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (file < 0) throw_unusable(folder, std::strerror(errno));
         held = ::flock(file, LOCK_EX | LOCK_NB) == 0;
         if (!held && errno == EWOULDBLOCK) {

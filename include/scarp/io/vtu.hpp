@@ -177,7 +177,7 @@ inline std::string vtu_fields(std::vector<VtuField> const& fields, std::string_v
 inline std::string vtu_cells(Cells const& cells) {
   std::vector<std::int32_t> offsets;
   for (int end = 1; end <= cells.count(); ++end) offsets.push_back(end * cells.nodes);
-  std::vector<std::uint8_t> const types(cells.regions.size(), cells.vtk_type);
+  std::vector<std::uint8_t> const types(offsets.size(), cells.vtk_type);
   return "<Cells>\n" + vtu_array("connectivity", 1, cells.connectivity) + vtu_array("offsets", 1, offsets) +
          vtu_array("types", 1, types) + "</Cells>\n";
 }
@@ -185,8 +185,8 @@ inline std::string vtu_cells(Cells const& cells) {
 }  // namespace detail
 
 /// Writes an unstructured grid for ParaView and the like: XML with inline base64 binary, in full precision.
-/// positions [m]: of the nodes, such as the deformed ones. The region of every element is added as the cell field
-/// "region".
+/// positions [m]: of the nodes, such as the deformed ones. The region of every element, where it has one, is added as
+/// the cell field "region".
 /// \throws InputError for fields of the wrong length, and for names of fields that are there twice or no text
 /// \throws FileError when the file cannot be written; an older file of this name is then untouched
 template <int Dim>
@@ -199,7 +199,8 @@ void write_vtu(std::filesystem::path const& path, Cells const& cells, std::vecto
     flat.insert(flat.end(), position.begin(), position.end());
   }
   auto at_elements = fields.at_elements;
-  at_elements.push_back({"region", 1, std::span<int const>(cells.regions), {}});
+  if (!cells.regions.empty()) at_elements.push_back({"region", 1, std::span<int const>(cells.regions), {}});
+  auto const elements = static_cast<std::size_t>(cells.count());
   auto const points = detail::vtk_padded<double>(flat, 1, dim, 1, 3);
   write_file(
       path, fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
@@ -208,7 +209,7 @@ void write_vtu(std::filesystem::path const& path, Cells const& cells, std::vecto
                         little ? "LittleEndian" : "BigEndian", positions.size(), cells.count()) +
                 "<Points>\n" + detail::vtu_array("Points", 3, points) + "</Points>\n" + detail::vtu_cells(cells) +
                 detail::vtu_fields(fields.at_nodes, "PointData", positions.size(), "nodes", dim) +
-                detail::vtu_fields(at_elements, "CellData", cells.regions.size(), "elements", dim) +
+                detail::vtu_fields(at_elements, "CellData", elements, "elements", dim) +
                 "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
 
@@ -249,7 +250,8 @@ class PvdSeries {
     entries.emplace_back(time, file.generic_string());
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
     for (auto const& [when, what] : entries) {
-      text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", when, xml_text(what));
+      text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", when,
+                          xml_text(valid_utf8(what)));
     }
     write_file(path(), text + "</Collection>\n</VTKFile>\n");
     entries_ = std::move(entries);

@@ -15,9 +15,10 @@ struct Cells {
   int nodes = 0;                             ///< of each element
   std::uint8_t vtk_type = 0;                 ///< VTK's number of the kind, 0 for one that names none
   std::vector<std::int32_t> connectivity{};  ///< node numbers of all elements in turn, in VTK's order
-  std::vector<int> regions{};                ///< number of each element's region
+  std::vector<int> regions{};                ///< number of each element's region; empty where they have none
 
-  int count() const { return detail::count(regions); }  ///< Number of elements.
+  /// Number of elements.
+  int count() const { return nodes > 0 ? detail::count(connectivity) / nodes : 0; }
 };
 
 /// The elements of a mesh as cells.

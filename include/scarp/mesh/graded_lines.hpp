@@ -74,8 +74,14 @@ class Spacing {
 };
 
 /// Number of cells between two neighbouring fixed lines: at least `least`, else the nearest to the wanted spacing.
+/// \throws InputError for more than ten million
 inline int cells_between(Spacing const& spacing, double from, double to, int least = 1) {
-  return std::max(least, static_cast<int>(std::lround(spacing.cells_to(to) - spacing.cells_to(from))));
+  double const cells = spacing.cells_to(to) - spacing.cells_to(from);
+  constexpr double most = 1e7;
+  if (cells > most)
+    reject("{:.3g} cells would be between {} and {} m (at most {:.0g} are made): check the unit of the spacing", cells,
+           from, to, most);
+  return std::max(least, static_cast<int>(std::lround(cells)));
 }
 
 /// Grid lines [m] that pass exactly through every fixed position.

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "scarp/core/error.hpp"
@@ -154,9 +155,23 @@ std::span<MeshSide<Element> const> sides_with(std::vector<MeshSide<Element>> con
   return {first, std::ranges::upper_bound(sides, sorted, {}, &MeshSide<Element>::sorted)};
 }
 
+/// A side is between two elements that lie on either side of it.
+template <class Element>
+void validate_neighbours(std::vector<MeshSide<Element>> const& sides) {
+  for (std::size_t k = 1; k < sides.size(); ++k) {
+    auto const& [one, other] = std::tie(sides[k - 1], sides[k]);
+    if (one.sorted != other.sorted) continue;
+    bool const third = k > 1 && sides[k - 2].sorted == other.sorted;
+    if (third || same_winding<typename Element::Facet>(one.nodes, other.nodes))
+      reject("elements {} and {} lie on the same side of the facet ({}) (they overlap): remove one of them",
+             one.element, other.element, listed(other.nodes));
+  }
+}
+
 template <class Element>
 void validate_boundaries(Mesh<Element> const& mesh) {
   auto const sides = sorted_sides(mesh);
+  validate_neighbours(sides);
   for (auto const& [name, facets] : mesh.boundaries) {
     std::set<std::array<int, Element::facet_nodes>> known;
     for (auto const& facet : facets) {
@@ -179,7 +194,8 @@ void validate_boundaries(Mesh<Element> const& mesh) {
 }  // namespace detail
 
 /// \throws InputError for an empty mesh, wrong node or region numbers, positions that are not finite, unused nodes,
-/// elements without positive volume, boundary facets that are no element's side, and such that are there twice
+/// elements without positive volume, and such that overlap, since a side has more than one of them on one of its sides;
+/// boundary facets that are no element's side, and such that are there twice
 template <class Element>
 SCARP_EXPORT void validate(Mesh<Element> const& mesh) {
   detail::validate_sizes(mesh);

@@ -63,8 +63,9 @@ double excess(Field const& field, std::vector<Vector<2>> const& nodes, std::arra
 /// sides are straight; the same mesh and field give the same bits.
 /// Triangles are bisected where the field wants it at their centre: they come out with a longest side of at most 1.19
 /// sizes there and at least half of the mesh's least angle. Quadrilaterals are divided into triangles first; then these
-/// become quadrilaterals, sides at most 1.19 sizes where the size is even and 1.68 where it changes. All of these
-/// are divided at least into four, so start from a mesh twice as coarse.
+/// become quadrilaterals, sides mostly at most 1.19 sizes where the size is even, 1.7 at most where a triangle has no
+/// partner or cells are distorted, and about 2 where the size changes. All of these are divided at least into four, so
+/// start from a mesh twice as coarse.
 /// A mesh that is fine enough everywhere is returned as it is.
 /// \throws InputError for an invalid mesh, a size that is not finite and positive, and more than ten million elements
 template <CheckedElement Element, SizeField Field>

@@ -44,7 +44,10 @@ class PackingSeries : public NeverStops {
   /// Writes the packing of an accepted state that has come to the next share.
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    auto const due = [&] { return next_ < std::ssize(shares_) && report.load >= shares_[detail::index(next_)] * to_; };
+    constexpr double round_off = 1e-9;  // loads that are sums of steps
+    auto const due = [&] {
+      return next_ < std::ssize(shares_) && report.load >= (shares_[detail::index(next_)] - round_off) * to_;
+    };
     if (!report.verdict.acceptable() || !due()) return;
     while (due()) ++next_;
     write(problem, report.load);

@@ -33,14 +33,27 @@ struct DiscUnion {
 
 namespace detail {
 
+/// How the boundary of a disc lies to another disc; discs that touch to round-off do not cross.
+enum class Meeting { apart, inside, around, crossing };
+
+inline Meeting meeting(ClumpMember const& own, ClumpMember const& other) {
+  double const distance = (other.centre() - own.centre()).norm();
+  double const slight = 1e-12 * (own.radius + other.radius);
+  if (distance >= own.radius + other.radius - slight) return Meeting::apart;
+  if (distance <= std::abs(own.radius - other.radius) + slight)
+    return own.radius <= other.radius ? Meeting::inside : Meeting::around;
+  return Meeting::crossing;
+}
+
 /// Angles at which the boundary of a disc enters or leaves other discs, with both ends of the full turn, sorted.
 inline std::vector<double> crossing_angles(std::span<ClumpMember const> discs, std::size_t i) {
   std::vector<double> angles{-std::numbers::pi, std::numbers::pi};
-  for (auto const& other : discs) {
+  for (std::size_t j = 0; j < discs.size(); ++j) {
+    auto const& other = discs[j];
+    if (j == i || meeting(discs[i], other) != Meeting::crossing) continue;
     Vector<2> const branch = other.centre() - discs[i].centre();
     double const distance = branch.norm();
     double const own = discs[i].radius;
-    if (distance >= own + other.radius || distance <= std::abs(own - other.radius)) continue;
     double const direction = std::atan2(branch(1), branch(0));
     double const half =
         std::acos((distance * distance + own * own - other.radius * other.radius) / (2.0 * distance * own));
@@ -52,14 +65,14 @@ inline std::vector<double> crossing_angles(std::span<ClumpMember const> discs, s
   return angles;
 }
 
-/// Does another disc hide that point of the boundary of disc i? Of equal discs the first is seen.
+/// Does another disc hide that point of the boundary of disc i?
 inline bool is_covered(std::span<ClumpMember const> discs, std::size_t i, Vector<2> const& point) {
   for (std::size_t j = 0; j < discs.size(); ++j) {
     if (j == i) continue;
-    double const distance = (discs[j].centre() - discs[i].centre()).norm();
-    bool const same = distance == 0.0 && discs[j].radius == discs[i].radius;
-    bool const holds_all = distance + discs[i].radius <= discs[j].radius;
-    if (same ? j < i : holds_all || (point - discs[j].centre()).norm() < discs[j].radius) return true;
+    auto const how = meeting(discs[i], discs[j]);
+    if (how == Meeting::crossing && (point - discs[j].centre()).norm() < discs[j].radius) return true;
+    // Of equal discs the first is seen.
+    if (how == Meeting::inside && (meeting(discs[j], discs[i]) != Meeting::inside || j < i)) return true;
   }
   return false;
 }

@@ -36,6 +36,7 @@ struct AngleJet {
   friend constexpr AngleJet operator-(AngleJet const& a, AngleJet const& b) {
     return {a.value - b.value, a.first - b.first, a.second - b.second};
   }
+  friend constexpr AngleJet operator-(AngleJet const& a) { return {-a.value, -a.first, -a.second}; }  ///< Negative.
   /// Product.
   friend constexpr AngleJet operator*(AngleJet const& a, AngleJet const& b) {
     T const mixed = a.first * b.first;

@@ -20,6 +20,7 @@ struct Ellipse {
   static constexpr int size_count = 2;              ///< two semi-axes
   static constexpr int orientation_count = 2;       ///< cosine and sine of the major axis
   static constexpr int pose_count = 3;              ///< m, p and q [m2] of the support matrix
+  static constexpr bool is_point_symmetric = true;  ///< half a turn changes nothing
   static constexpr bool warm_starts_normal = true;  ///< a step of Newton's method starts from the stored normal
 
   template <class T>

@@ -71,6 +71,13 @@ constexpr int part_count() {
   return 1;
 }
 
+/// Whether half a turn brings every grain onto itself; no where the shape does not declare it.
+template <class Shape>
+constexpr bool is_point_symmetric() {
+  if constexpr (requires { Shape::is_point_symmetric; }) return Shape::is_point_symmetric;
+  return false;
+}
+
 /// Number of species that a shape distinguishes, 0 for none.
 template <class Shape>
 constexpr int species_count() {

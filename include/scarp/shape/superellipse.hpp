@@ -21,6 +21,7 @@ struct Superellipse {
   static constexpr int size_count = 3;              ///< two half axes and the exponent
   static constexpr int orientation_count = 2;       ///< cosine and sine of the rx axis
   static constexpr int pose_count = 7;              ///< numbers of `Pose`
+  static constexpr bool is_point_symmetric = true;  ///< half a turn changes nothing
   static constexpr bool warm_starts_normal = true;  ///< the search starts from the stored normal
   static constexpr double smallest_exponent = 0.2;  ///< the contact search holds from this value on
   static constexpr double largest_exponent = 1.8;   ///< the contact search holds up to this value

@@ -23,6 +23,7 @@ struct WithSpecies {
   static constexpr int part_count = scarp::part_count<Shape>();          ///< of `Shape`
   static constexpr int species_count = Species;                          ///< species are numbered from one
   static constexpr bool warm_starts_normal = Shape::warm_starts_normal;  ///< of `Shape`
+  static constexpr bool is_point_symmetric = scarp::is_point_symmetric<Shape>();  ///< of `Shape`
 
   template <class T>
   using Size = SizeOf<WithSpecies, T>;  ///< that of `Shape`, then the species as a number

@@ -76,10 +76,8 @@ class SCARP_EXPORT QuasiNewtonSession {
   /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that
   /// step left unbalanced; else a linear solve.
   Eigen::VectorXd predict(double from, double to);
-
   /// Iterates from a prediction, which ends as the increment in equilibrium, with the points' trial states.
   void correct(Eigen::VectorXd& increment, StepReport& report, StopCondition const& stop = {});
-
   /// Commits an increment in equilibrium; the learned tangents start the next step.
   void accept(Eigen::VectorXd const& increment);
   /// State that persists from step to step.
@@ -93,12 +91,10 @@ class SCARP_EXPORT QuasiNewtonSession {
 
  private:
   using Clock = std::chrono::steady_clock;
-
   /// How the free degrees of freedom moved in the last accepted load step.
   struct Motion {
     std::vector<double> motion_;  ///< [m], less what the step before had left to it; empty where it is not known
     double growth_ = 0.0;         ///< of the load factor, positive
-
     SCARP_MEMBERS(motion_, growth_)
   };
 
@@ -164,6 +160,7 @@ Eigen::VectorXd QuasiNewtonSession<Rule, Dim>::predict(double from, double to) {
   growth_ = to - from;
   problem_.set_load(to);
   Eigen::VectorXd increment = problem_.constraints().displacement(from, to);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(increment.size());  // where the repeated motion began
   // Beyond ten times the last step the guess would be little else than what was missing then.
   if (motion_.motion_.empty() || !(growth_ > 0.0) || growth_ > 10.0 * motion_.growth_) {
     Eigen::VectorXd const more_load = problem_.loads().at(to) - problem_.loads().at(from);
@@ -171,7 +168,9 @@ Eigen::VectorXd QuasiNewtonSession<Rule, Dim>::predict(double from, double to) {
   } else {  // what is missing is made good, and the last motion was too small by as much
     Eigen::Map<Eigen::VectorXd const> const last(motion_.motion_.data(), missing_.size());
     linearised_.system().scatter(growth_ / motion_.growth_ * (last + missing_) + missing_, increment);
+    linearised_.system().scatter(-last, before);
   }
+  if (problem_.has_field()) problem_.field()->limit(before, increment);
   return increment;
 }
 
@@ -220,6 +219,7 @@ void QuasiNewtonSession<Rule, Dim>::iterate(Eigen::VectorXd& increment, StepRepo
       if (report.verdict.reason == Reason::singular_system) report.weak_dof = linearised_.system().weakest_dof();
       return;
     }
+    if (problem_.has_field()) problem_.field()->limit(increment, next);
     linear_residual = linearised_.system().residual();
     increment += next - increment;
   }

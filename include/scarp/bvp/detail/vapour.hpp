@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "scarp/bvp/detail/corner_field.hpp"
@@ -54,6 +55,18 @@ class Vapour {
   Values volumes(Values const& pressures) const { return slopes_.cwiseProduct((lowest_ - pressures).cwiseMax(0.0)); }
   /// By which a corner's volume grows as its pressure falls [m3/Pa].
   double slope(int corner, double pressure) const { return pressure < lowest_(corner) ? slopes_(corner) : 0.0; }
+  /// A linear step from water alone ends where vapour begins; of a motion through there its part below continues.
+  /// corners: whose pressures change by scale [Pa] times last, shape (corners), and the last entries of next, from start
+  void limit(std::vector<int> const& corners, Values const& start, double scale, Values const& last,
+             Values& next) const {
+    Eigen::Index row = next.size() - last.size();
+    constexpr double within = 1e-6;  // [Pa], so that round-off does not leave a corner above
+    for (Eigen::Index k = 0; k < last.size(); ++k, ++row) {
+      int const corner = corners[static_cast<std::size_t>(k)];
+      double const begins = (lowest_(corner) - within - start(corner)) / scale;
+      if (last(k) > begins && next(row) < begins) next(row) = begins < 0.0 ? begins : next(row) * begins / last(k);
+    }
+  }
 
  private:
   Values lowest_;  ///< [Pa]

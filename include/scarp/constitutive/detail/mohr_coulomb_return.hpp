@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "scarp/core/index.hpp"
+#include "scarp/core/nan_max.hpp"
 #endif
 
 namespace scarp::detail {
@@ -83,7 +84,7 @@ class MohrCoulombReturn {
 
   double excess(Vector<3> const& stress) const {
     double most = -std::numeric_limits<double>::infinity();
-    for (int k = 0; k < count_; ++k) most = std::max(most, plane(k).normal.dot(stress) - plane(k).limit);
+    for (int k = 0; k < count_; ++k) most = nan_max(most, plane(k).normal.dot(stress) - plane(k).limit);
     return most;
   }
 

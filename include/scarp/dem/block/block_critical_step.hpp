@@ -61,7 +61,7 @@ SCARP_HOST_DEVICE constexpr double block_critical_step(BlockWork<Types, Team> co
     double const spin_i = share_i * static_cast<double>(work.grains.inverse_inertia[i]);
     double const spin_j = share_j * static_cast<double>(work.grains.inverse_inertia[j]);
     double const depth = (touch.overlap > 0.0 ? touch.overlap : 0.0) + (work.skin > 0.0 ? work.skin : 0.0);
-    auto const springs = work.law.stiffness(depth, radius);
+    auto const springs = stiffest_springs(work.law, depth, radius);
     double step = 2.0 / std::sqrt(stiffest_mode_of<dim>(touch, springs, centres, spin_i, spin_j));
     if (ratio > 0.0) {
       auto const dashpots = dashpots_of(springs, ratio, 1.0 / (light_i + light_j));
@@ -81,9 +81,9 @@ SCARP_HOST_DEVICE constexpr double block_critical_step(BlockWork<Types, Team> co
   double const counted = shortest == shortest ? shortest : 0.0;
   auto const found = work.team.largest(std::array{~ordered_bits(counted), ordered_bits(lightest)});
   if (work.pair_count > 0) return std::bit_cast<double>(~found[0] & ~(1ULL << 63));
-  double const springs = 4.0 *
-                         work.law.stiffness(work.skin > 0.0 ? work.skin : 0.0, work.grains.largest_radius).normal *
-                         std::bit_cast<double>(found[1]);
+  double const springs =
+      4.0 * stiffest_springs(work.law, work.skin > 0.0 ? work.skin : 0.0, work.grains.largest_radius).normal *
+      std::bit_cast<double>(found[1]);
   return 2.0 / std::sqrt(springs) * (std::sqrt(1.0 + ratio * ratio) - ratio);
 }
 

@@ -122,6 +122,14 @@ inline std::map<std::pair<std::string, std::string>, std::size_t> gmsh_group_siz
 /// \throws InputError where a group neither holds another one nor lies in it
 inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::string> const& wanted) {
   auto const sizes = gmsh_group_sizes(content, dim);
+  for (auto const& name : wanted) {
+    if (sizes.contains({name, name})) continue;
+    std::set<std::string> known;
+    for (auto const& [pair, elements] : sizes) known.insert(pair.first);
+    content.notes.push_back(
+        fmt::format("'{}': no element is in '{}', which is to count before other groups; there are '{}'", content.file,
+                    name, listed(known, "', '")));
+  }
   std::map<std::string, std::set<std::string>> parts_of;
   for (auto& element : content.elements) {
     if (element.type->dim != dim || element.groups.size() < 2) continue;
@@ -184,15 +192,16 @@ inline void turn_gmsh_elements(GmshContent& content, int dim) {
   for (auto const& node : content.nodes) places.emplace(node.tag, node.position);
   std::size_t turned = 0;
   for (auto& element : content.elements) {
+    if (element.type->dim != dim) continue;
     double size = 0.0;  // twice the area, or six times the volume between the edges of the first corner
-    auto const corners = element.type->dim == dim ? index(without_gmsh_nodes(*element.type, 1).nodes) : 0;
+    auto const corners = index(without_gmsh_nodes(*element.type, 1).nodes);
     auto const place = [&](std::size_t corner) {
       return Eigen::Map<Vector<3> const>(places[element.nodes[corner]].data());
     };
     auto const side = [&](std::size_t corner) -> Vector<3> { return place(corner) - place(0); };
     if (dim == 2) {
       for (std::size_t a = 2; a < corners; ++a) size += side(a - 1).cross(side(a)).z();
-    } else if (dim == 3 && corners > 0) {
+    } else if (dim == 3) {
       bool const on_triangle = corners == 4 || corners == 6;  // its first side: of tetrahedra and prisms
       size = side(1).cross(side(on_triangle ? 2 : 3)).dot(side(on_triangle ? 3 : 4));
     }

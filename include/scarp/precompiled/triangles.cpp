@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/fault/fault_scene.hpp"
 
 namespace scarp {
+SCARP_GRID(template, Tri3)
 SCARP_GROUND(template, Tri3)
-SCARP_GROUND(template, Tri6)
-SCARP_GROUND(template, Quad4)
-SCARP_GROUND(template, Quad8)
 }  // namespace scarp

@@ -2,10 +2,7 @@
 #include "scarp/solver/quasi_newton.hpp"
 
 namespace scarp {
-template class MaterialPoints<2>;
 template class MaterialPoints<3>;
-template class Problem<2>;
 template class Problem<3>;
-template class QuasiNewtonSession<MaterialTangent, 2>;
 template class QuasiNewtonSession<MaterialTangent, 3>;
 }  // namespace scarp

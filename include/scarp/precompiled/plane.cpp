@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scarp/solver/quasi_newton.hpp"
+
+namespace scarp {
+template class MaterialPoints<2>;
+template class Problem<2>;
+template class QuasiNewtonSession<MaterialTangent, 2>;
+}  // namespace scarp
