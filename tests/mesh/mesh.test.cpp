@@ -142,7 +142,7 @@ TEST_CASE("elements that overlap are refused with their numbers") {
   auto twice = square();
   twice.elements.push_back({1, 2, 0});
   twice.element_region.push_back(1);
-  CHECK(complaint(twice) == Naming{"elements 0 and 2 lie on the same side of the facet"});
+  CHECK(complaint(twice) == Naming{"elements 0 and 2 lie on the same side of a facet"});
   auto folded = square();  // a third element at one facet
   folded.nodes.push_back({0.9, 0.1});
   folded.elements.push_back({0, 4, 2});

@@ -184,6 +184,7 @@ struct Servo {
   Verdict reach(Stepper& stepper, PackingType& packing, typename PackingType::Law const& law,
                 Loading<PackingType::dim> const& loading) const {
     validate();
+    loading.validate();
     if (!loading.reachable(Bonds<typename PackingType::Law>)) return {Status::not_converged, Reason::unreachable};
     constexpr double slight = 1e-3;  // of the springs, where no stress at all is prescribed
     double const prescribed = loading.stress_scale();

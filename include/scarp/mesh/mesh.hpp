@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "scarp/core/error.hpp"
@@ -155,23 +155,26 @@ std::span<MeshSide<Element> const> sides_with(std::vector<MeshSide<Element>> con
   return {first, std::ranges::upper_bound(sides, sorted, {}, &MeshSide<Element>::sorted)};
 }
 
-/// A side is between two elements that lie on either side of it.
+/// Two elements that lie on the same side of a facet, by the sorted sides, if there are such.
 template <class Element>
-void validate_neighbours(std::vector<MeshSide<Element>> const& sides) {
+std::optional<std::pair<int, int>> overlapping_elements(std::vector<MeshSide<Element>> const& sides) {
   for (std::size_t k = 1; k < sides.size(); ++k) {
-    auto const& [one, other] = std::tie(sides[k - 1], sides[k]);
+    auto const& one = sides[k - 1];
+    auto const& other = sides[k];
     if (one.sorted != other.sorted) continue;
     bool const third = k > 1 && sides[k - 2].sorted == other.sorted;
     if (third || same_winding<typename Element::Facet>(one.nodes, other.nodes))
-      reject("elements {} and {} lie on the same side of the facet ({}) (they overlap): remove one of them",
-             one.element, other.element, listed(other.nodes));
+      return std::pair{one.element, other.element};
   }
+  return std::nullopt;
 }
 
 template <class Element>
 void validate_boundaries(Mesh<Element> const& mesh) {
   auto const sides = sorted_sides(mesh);
-  validate_neighbours(sides);
+  if (auto const both = overlapping_elements(sides))
+    reject("elements {} and {} lie on the same side of a facet (they overlap): remove one of them", both->first,
+           both->second);
   for (auto const& [name, facets] : mesh.boundaries) {
     std::set<std::array<int, Element::facet_nodes>> known;
     for (auto const& facet : facets) {

@@ -135,7 +135,7 @@ void reject_repeated_elements(GmshContent const& content, GmshPicks const& picks
 
 /// Names the elements as the file does, which the check of the mesh cannot.
 template <class Element>
-void reject_inverted_elements(GmshContent const& content, GmshPicks const& picks, Mesh<Element> const& mesh) {
+void reject_wrong_elements(GmshContent const& content, GmshPicks const& picks, Mesh<Element> const& mesh) {
   for (int e = 0; e < count(mesh.elements); ++e) {
     if (auto const determinant = bad_jacobian(mesh, e)) {
       auto const& pick = *picks[index(e)];
@@ -145,6 +145,9 @@ void reject_inverted_elements(GmshContent const& content, GmshPicks const& picks
           pick.tag, content.file, listed(pick.nodes), *determinant, Element::dim);
     }
   }
+  if (auto const both = overlapping_elements(sorted_sides(mesh)))
+    reject("elements {} and {} of '{}' lie on the same side of a facet (they overlap): mesh the geometry again",
+           picks[index(both->first)]->tag, picks[index(both->second)]->tag, content.file);
 }
 
 template <class Element>
@@ -157,7 +160,7 @@ Mesh<Element> assemble_gmsh(GmshContent const& content) {
   for (auto const* const pick : picks) mesh.elements.push_back(numbering.template numbers<Element>(*pick));
   read_gmsh_regions(content, picks, mesh);
   reject_repeated_elements(content, picks, mesh);
-  reject_inverted_elements(content, picks, mesh);
+  reject_wrong_elements(content, picks, mesh);
   read_gmsh_boundaries(content, numbering, mesh);
   return mesh;
 }

@@ -122,14 +122,6 @@ inline std::map<std::pair<std::string, std::string>, std::size_t> gmsh_group_siz
 /// \throws InputError where a group neither holds another one nor lies in it
 inline void choose_gmsh_regions(GmshContent& content, int dim, std::vector<std::string> const& wanted) {
   auto const sizes = gmsh_group_sizes(content, dim);
-  for (auto const& name : wanted) {
-    if (sizes.contains({name, name})) continue;
-    std::set<std::string> known;
-    for (auto const& [pair, elements] : sizes) known.insert(pair.first);
-    content.notes.push_back(
-        fmt::format("'{}': no element is in '{}', which is to count before other groups; there are '{}'", content.file,
-                    name, listed(known, "', '")));
-  }
   std::map<std::string, std::set<std::string>> parts_of;
   for (auto& element : content.elements) {
     if (element.type->dim != dim || element.groups.size() < 2) continue;
