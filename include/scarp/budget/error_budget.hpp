@@ -104,8 +104,7 @@ class ErrorBudget : public NeverStops {
       add("time", field_size_ > 0.0 ? time_error_ / field_size_ : 0.0, bounds_.time,
           "largest estimated error of the field in one time step, over its largest value");
     }
-    // The work and the second paths begin with the first accepted step.
-    bool const has_path = tracked_.steps > 1;
+    bool const has_path = tracked_.steps != 1;  // the work and the second paths begin with the first accepted step
     if (adds_up_work_ && has_path)
       add("work_gap", balance_.gap(), bounds_.work_gap, "external against internal work of the run");
     add("linear_residual", linear_residual_,
