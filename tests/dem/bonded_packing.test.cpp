@@ -4,9 +4,11 @@
 #include <doctest/doctest.h>
 
 #include "scarp/contact/cohesive_bond.hpp"
+#include "scarp/contact/law_per_species.hpp"
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/drive.hpp"
 #include "scarp/dem/loading.hpp"
+#include "scarp/shape/with_species.hpp"
 #include "support/packings.hpp"
 #include "support/refusals.hpp"
 
@@ -106,4 +108,14 @@ TEST_CASE("a packing with bonds is not bonded again, and a gap must be within th
   auto const grains = samples::consolidated<samples::Discs>(80).packing;
   auto const once = scarp::bonded(grains, samples::study_law(), cement(1.0));
   CHECK_REFUSED(scarp::bonded(once.packing, cement(1.0), cement(2.0)), "has bonds already");
+
+  using Kinds = scarp::WithSpecies<scarp::Disc, 2>;
+  scarp::LawPerSpecies<scarp::LinearFrictional, 2> former;
+  scarp::LawPerSpecies<Bond, 2> law;
+  former.laws.fill({1e6, 1e6, 0.5});
+  law.laws.fill({{1e6, 1e6, 0.5}, 1e4, 1e4});  // bonds that break beyond 1e-2 m
+  law.between(1, 2).tensile_strength = 1e3;    // and beyond 1e-3 m
+  auto const pair = samples::place<scarp::Packing<Kinds, scarp::LawPerSpecies<scarp::LinearFrictional, 2>>>(
+      2.0 * scarp::Tensor<2>::Identity(), {{0.1, 1.0}, {0.1, 2.0}}, {{0.5, 0.5}, {0.705, 0.5}});
+  CHECK_REFUSED(scarp::bonded(pair, former, law, 5e-3), "break beyond 0.001 m");
 }

@@ -60,9 +60,8 @@ void require_consistent(Law const& law, double radius) {
       (forces(depth, 1e-3 * depth).normal != still.normal || forces(depth, 0.0, 1e-3 * depth).shear != still.shear)) {
     reject(
         "the contact law's force depends on how fast the contact closes or slides (it has no damping_ratio(), or one "
-        "of "
-        "0, so the time step would be that of its springs alone): give it `double damping_ratio() const`, the share of "
-        "critical damping that its dashpots reach");
+        "of 0, so the time step would be that of its springs alone): give it `double damping_ratio() const`, the share "
+        "of critical damping that its dashpots reach");
   }
   double const gap = reach + depth;
   double const force = forces(-gap, 0.0).normal;

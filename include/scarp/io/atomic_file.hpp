@@ -103,7 +103,7 @@ inline bool flush_folder(std::filesystem::path const& folder) {
 #endif
 }
 
-/// The file that a name leads to, through links; itself where there is none.
+/// The file that a name stands for: the one that a link leads to, or the name.
 /// \throws FileError for what a file must not replace
 inline std::filesystem::path replaceable(std::filesystem::path const& name) {
   std::error_code none;

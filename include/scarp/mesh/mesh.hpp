@@ -197,8 +197,8 @@ void validate_boundaries(Mesh<Element> const& mesh) {
 }  // namespace detail
 
 /// \throws InputError for an empty mesh, wrong node or region numbers, positions that are not finite, unused nodes,
-/// elements without positive volume, and such that overlap, since a side has more than one of them on one of its sides;
-/// boundary facets that are no element's side, and such that are there twice
+/// elements without positive volume, two elements on the same side of a facet, boundary facets that are no element's
+/// side, and such that are there twice
 template <class Element>
 SCARP_EXPORT void validate(Mesh<Element> const& mesh) {
   detail::validate_sizes(mesh);
