@@ -62,7 +62,7 @@ PROGRAMS = ("fault_rupture", "biaxial_specimen", "retaining_wall", "rve_lab")
 WRITES = re.compile(r"\b(CsvTable|CsvLog|VtuFields) \w+\(?[;({]|\b(?:CsvTable|CsvLog)\(\{|\bwrite_json\(")
 NO_TABLES = {"io/csv.hpp", "io/json.hpp", "examples/shared/write_json.hpp",  # definitions
              # write what others made
-             *(f"examples/fault_rupture/{name}" for name in ("run_scene.hpp", "ensemble_runs.hpp", "sensitivity.cpp"))}
+             *(f"examples/fault_rupture/{name}" for name in ("run_scene.cpp", "ensemble_runs.hpp", "sensitivity.cpp"))}
 # Keys that a source reads or leaves out.
 READ = {"examples/fault_rupture/ensemble.cpp": {"bands", "bearing_pressure", "cpu_seconds", "depth", "elements", "error_budget", "footing_centre", "footing_width", "parts", "within", "fault_line_x50", "grains_per_rve", "height_over_depth", "peak_memory_bytes",
                                        "share_of_time_in_points", "share_of_time_outside_points", "threads", "tolerance", "wall_seconds"},

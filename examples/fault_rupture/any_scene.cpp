@@ -3,6 +3,7 @@
 #include "../shared/print.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -12,6 +13,19 @@
 namespace fault_rupture {
 
 namespace {
+
+#ifdef FAULT_RUPTURE_WATER
+template <class Structure>
+using OnGround = scarp::Saturated<Structure>;
+#else
+template <class Structure>
+using OnGround = Structure;
+#endif
+
+/// Compiled once for all soils.
+template <class Structure>
+using SceneOn = scarp::FaultScene<scarp::Nonlocal<scarp::AnyProvider<2>>, OnGround<Structure>, scarp::QuasiNewton<>,
+                                  ChosenGround<Element>, ChosenFault>;
 
 /// \throws scarp::InputError for a probe that was requested outside of the ground
 template <class SceneType>
@@ -50,8 +64,29 @@ SceneSize size_of(Choice const& choice, SceneType const& scene, std::vector<scar
   return size;
 }
 
+/// What runs use of a scene.
 template <class SceneType>
-SceneType make_any(Choice const& choice, int processes, bool speaks) {
+Scene used_of(SceneType scene, AnySoil const& soil) {
+  auto const whole = std::make_shared<SceneType const>(std::move(scene));
+  Scene used{.ground = whole->ground,
+             .fault = whole->fault,
+             .stages = whole->stages(),
+             .tolerance = soil.tolerance,
+             .pressure_floor = soil.pressure_floor,
+             .write_packing = soil.write_packing,
+             .problem = [whole](scarp::Executor& executor) { return whole->problem(executor); },
+             .overburden = [whole](double depth) { return whole->overburden(depth); }};
+  if constexpr (requires { whole->structure.times; }) used.rupture_time = whole->structure.times.rupture;
+  if constexpr (requires { whole->structure.footing; }) {
+    used.footing = Footing{whole->structure.footing, [whole](Problem const& problem, double load) {
+                             return whole->structure.motion(problem, load);
+                           }};
+  }
+  return used;
+}
+
+template <class SceneType>
+Scene make_any(Choice const& choice, int processes, bool speaks) {
   auto scene = without_soil<SceneType>(choice);
   require_probes_inside(choice, scene);
   auto const sites = scene.soil_sites();
@@ -79,12 +114,9 @@ SceneType make_any(Choice const& choice, int processes, bool speaks) {
   scene.soil.provider = std::move(soil.provider);
   scene.soil.length = choice.length;
   scene.solver = std::move(soil.solver);
-  scene.tolerance = soil.tolerance;
-  scene.pressure_floor = soil.pressure_floor;
-  scene.write_packing = std::move(soil.write_packing);
   scene.stepping.max_displacement_gradient = soil.max_displacement_gradient;
   if constexpr (requires { scene.structure.shear_modulus; }) scene.structure.shear_modulus = soil.shear_modulus;
-  return scene;
+  return used_of(std::move(scene), soil);
 }
 
 template <class SceneType>
@@ -105,9 +137,10 @@ auto with_scene(Choice const& choice, Make const& make) {
   if (!choice.water_table)
     scarp::reject("--water-table is not given to a program with water: give it, or start fault_rupture");
 #endif
-  if (choice.scene != Case::free && choice.base != Base::tied) return make(std::type_identity<Scene<SlidingFooting>>());
-  if (choice.scene == Case::free) return make(std::type_identity<Scene<FreeField>>());
-  return make(std::type_identity<Scene<TiedFooting>>());
+  if (choice.scene != Case::free && choice.base != Base::tied)
+    return make(std::type_identity<SceneOn<FrictionalFooting>>());
+  if (choice.scene == Case::free) return make(std::type_identity<SceneOn<scarp::NoStructure>>());
+  return make(std::type_identity<SceneOn<scarp::TiedFooting>>());
 }
 
 }  // namespace
@@ -116,10 +149,9 @@ SceneSize size_of_scene(Choice const& choice) {
   return with_scene(choice, [&](auto scene) { return size_of_any<typename decltype(scene)::type>(choice); });
 }
 
-AnyScene make_scene(Choice const& choice, int processes, bool speaks) {
-  return with_scene(choice, [&](auto scene) {
-    return AnyScene(make_any<typename decltype(scene)::type>(choice, processes, speaks));
-  });
+Scene make_scene(Choice const& choice, int processes, bool speaks) {
+  return with_scene(choice,
+                    [&](auto scene) { return make_any<typename decltype(scene)::type>(choice, processes, speaks); });
 }
 
 }  // namespace fault_rupture

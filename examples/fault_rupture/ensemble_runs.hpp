@@ -6,7 +6,6 @@
 #include <memory>
 #include <thread>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "../shared/print.hpp"
@@ -59,7 +58,7 @@ struct EnsembleRuns {
     Choice choice;
     EnsembleMember result;
     OwnFolders own;
-    std::optional<AnyScene> scene{};
+    std::optional<Scene> scene{};
 
     Member(EnsembleRuns const& all, Choice const& shared, std::uint64_t seed)
         : choice(of_seed(shared, seed)),
@@ -71,7 +70,7 @@ struct EnsembleRuns {
     void run(scarp::ThreadExecutor& threads, Moment begun) {
       try {
         Start const start{own.files, own.on_root_rank(), begun, {}, &threads, fmt::format("seed {}: ", result.seed)};
-        result.code = std::visit([&](auto const& one) { return fault_rupture::run(choice, one, start); }, *scene);
+        result.code = fault_rupture::run(choice, *scene, start);
       } catch (std::exception const& problem) {
         result.problem = problem.what();
         if (auto* const folder = own.on_root_rank(); folder != nullptr && folder->record().state == "running") {

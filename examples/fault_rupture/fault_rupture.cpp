@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 
+#include "../shared/budget_report.hpp"
 #include "../shared/command_line.hpp"
 #include "../shared/device/device_option.hpp"
 #include "../shared/print.hpp"
@@ -311,10 +312,6 @@ void warn_of_unused(CLI::App const& app, Choice const& choice) {
   }
 }
 
-double max_displacement_gradient(fault_rupture::AnyScene const& scene) {
-  return std::visit([](auto const& chosen) { return chosen.stepping.max_displacement_gradient; }, scene);
-}
-
 /// Prepares and writes nothing.
 /// runs: as many with different packings
 void print_estimate(Choice const& choice, std::size_t runs) {
@@ -392,17 +389,17 @@ int main(int argc, char** argv) {
                                             : std::filesystem::path(choice.sensitivity_file);
     static_cast<void>(fault_rupture::SensitivityFile(known, ""));  // a wrong file is rejected before the ground is made
     auto const scene = fault_rupture::make_scene(choice, fault_rupture::ranks(), first);
-    fault_rupture::SensitivityFile sensitivity(
-        known, std::visit([&](auto const& chosen) { return fault_rupture::scene_lines(choice, app, chosen); }, scene));
+    fault_rupture::SensitivityFile sensitivity(known, fault_rupture::scene_lines(choice, app, scene));
     auto const run_sensitivity = [&](scarp::RunReport const& report) {
       if (choice.sensitivity_runs) {
         fault_rupture::SensitivityRuns const runs{app, output.folder, started};
-        runs.complete(sensitivity_runs_of(choice, max_displacement_gradient(scene)), report.steps, sensitivity);
+        runs.complete(sensitivity_runs_of(choice, scene.stages.stepping.max_displacement_gradient), report.steps,
+                      sensitivity);
       }
       return sensitivity.results();
     };
     fault_rupture::Start const start{own.files, own.on_root_rank(), started, run_sensitivity};
-    return std::visit([&](auto const& chosen) { return run(choice, chosen, start); }, scene);
+    return run(choice, scene, start);
   } catch (std::exception const& error) {
     fault_rupture::give_up(examples::ended_by(error, "fault_rupture", app));
   }

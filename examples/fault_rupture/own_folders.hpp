@@ -10,7 +10,7 @@
 #include "../shared/command_line.hpp"
 #include "../shared/run_options.hpp"
 #include "../shared/sand/sand_file.hpp"
-#include "../shared/study/chosen_ground.hpp"
+#include "any_scene.hpp"
 #include "scarp/io/checkpoint_files.hpp"
 #include "scarp/io/read_file.hpp"
 #include "scarp/run/run_folder.hpp"
@@ -56,10 +56,9 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
 
 /// All options that the result depends on, without those of output.
 /// scene: whose tolerance and limit of the load steps stand where the choice leaves them to the soil
-template <class Scene>
-std::string scene_lines(Choice choice, CLI::App const& app, Scene const& scene) {
+inline std::string scene_lines(Choice choice, CLI::App const& app, Scene const& scene) {
   choice.tolerance = scene.tolerance;
-  choice.max_displacement_gradient = scene.stepping.max_displacement_gradient;
+  choice.max_displacement_gradient = scene.stages.stepping.max_displacement_gradient;
   Choice const usual;
   choice.frames = usual.frames;
   choice.probe_a_x = usual.probe_a_x;

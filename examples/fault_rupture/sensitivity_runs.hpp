@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "../shared/print.hpp"
@@ -15,6 +14,7 @@
 #include "run_scene.hpp"
 #include "scarp/io/folder_lock.hpp"
 #include "scarp/io/read_file.hpp"
+#include "scarp/run/stop_signal.hpp"
 #include "sensitivity.hpp"
 
 namespace fault_rupture {
@@ -76,7 +76,7 @@ struct SensitivityRuns {
     scarp::RunFolder writes({.folder = own, .overwrite = true}, record_of(varied, own));
     auto const scene = make_scene(varied.choice, 1, true);
     Start const start{nowhere, &writes, started};
-    int const code = std::visit([&](auto const& one) { return run(varied.choice, one, start); }, scene);
+    int const code = run(varied.choice, scene, start);
     if (code != 0) scarp::reject("it has stopped early: see {}", (own / "summary.txt").string());
     return nlohmann::ordered_json::parse(scarp::read_file(own / "summary.json"));
   }

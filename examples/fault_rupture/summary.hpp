@@ -47,8 +47,7 @@ struct RunNotes {
   SCARP_MEMBERS(rest, reaction_at_rest, used)
 };
 
-template <class Problem, class SceneType>
-AtRest at_rest(Problem const& problem, SceneType const& scene) {
+inline AtRest at_rest(Problem const& problem, Scene const& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   AtRest rest{0.0, infinity, -infinity, 0.0, infinity, -infinity, 0.0, {}, 0.0};
   auto const& grid = problem.discretisation();
@@ -81,27 +80,25 @@ AtRest at_rest(Problem const& problem, SceneType const& scene) {
   return rest;
 }
 
-/// A structure's motion and what presses on its base; nothing for bare ground.
-/// load: factor of the committed state; below 0 a part of the structure's weight acts
-template <class Problem, class SceneType>
-void add_footing(nlohmann::ordered_json& json, SceneType const& scene, Problem const& problem, double load) {
-  if constexpr (requires { scene.structure.motion(problem, load); }) {
-    auto const motion = scene.structure.motion(problem, load);
-    auto const pressure = base_pressure(motion);
-    auto const& footing = scene.structure.footing;
-    double const weight = footing.bearing * footing.width;
-    double const acting = std::clamp(load - scene.structure.start(), 0.0, 1.0) * weight;
-    json["bearing_pressure"] = footing.bearing;
-    json["footing_centre"] = footing.centre;
-    json["footing_width"] = footing.width;
-    json["tilt"] = motion.tilt;
-    json["settlement"] = motion.settlement;
-    json["horizontal_displacement"] = motion.horizontal;
-    json["contact_pressure_min"] = pressure.least;
-    json["contact_pressure_max"] = pressure.largest;
-    json["contact_share"] = pressure.pressed;
-    json["force_imbalance"] = std::abs(scarp::support(motion) - acting) / weight;
-  }
+/// A footing's motion and what presses on its base; nothing for bare ground.
+/// load: factor of the committed state; below 0 a part of the footing's weight acts
+inline void add_footing(nlohmann::ordered_json& json, Scene const& scene, Problem const& problem, double load) {
+  if (!scene.footing) return;
+  auto const motion = scene.footing->motion(problem, load);
+  auto const pressure = base_pressure(motion);
+  auto const& strip = scene.footing->strip;
+  double const weight = strip.bearing * strip.width;
+  double const acting = std::clamp(load - scene.stages.start, 0.0, 1.0) * weight;
+  json["bearing_pressure"] = strip.bearing;
+  json["footing_centre"] = strip.centre;
+  json["footing_width"] = strip.width;
+  json["tilt"] = motion.tilt;
+  json["settlement"] = motion.settlement;
+  json["horizontal_displacement"] = motion.horizontal;
+  json["contact_pressure_min"] = pressure.least;
+  json["contact_pressure_max"] = pressure.largest;
+  json["contact_share"] = pressure.pressed;
+  json["force_imbalance"] = std::abs(scarp::support(motion) - acting) / weight;
 }
 
 /// Where and how sharply the offset comes through the ground; lengths [m], angles [rad].
@@ -149,14 +146,13 @@ inline void add_strip(nlohmann::ordered_json& json, PilotSize const& strip, scar
 }
 
 /// reaction: of the moving bedrock, less that at rest [N]
-template <class Problem, class SceneType>
-nlohmann::ordered_json summary(Choice const& choice, SceneType const& scene, Problem const& problem,
-                               RunNotes const& notes, double reaction, scarp::RunReport const& run) {
+inline nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, Problem const& problem,
+                                      RunNotes const& notes, double reaction, scarp::RunReport const& run) {
   auto const& rest = notes.rest;
   auto const& grid = problem.discretisation();
   auto const& ground = rest.ground.of(grid.nodes());
   auto const profile = scarp::surface_profile(grid.mesh(), ground, grid.positions());
-  double const thrown = std::clamp(run.load, 0.0, scene.throw_to);
+  double const thrown = std::clamp(run.load, 0.0, scene.stages.throw_to);
   auto const offset = scarp::offset_at(scene.fault, thrown);
   auto const survey = scarp::rupture_survey(grid.mesh(), ground, grid.positions(), offset);
   double const from_side = 0.2 * choice.depth;  // where the far field is read: the sides themselves are prescribed

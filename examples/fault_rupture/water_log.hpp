@@ -18,31 +18,25 @@
 
 namespace fault_rupture {
 
+#ifndef FAULT_RUPTURE_WATER
 /// Nothing to log.
-struct NoWater : scarp::NeverStops {
-  template <class Problem>
+struct WaterLog : scarp::NeverStops {
+  WaterLog(std::filesystem::path const&, Scene const&, double, scarp::CsvStart) {}
   void attempted(Problem const&, scarp::StepReport const&) {}
   static void add_to(nlohmann::ordered_json&) {}
 };
-template <class SceneType>
-NoWater water_log(std::filesystem::path const&, SceneType const&, double, scarp::CsvStart) {
-  return {};
-}
-
-#ifdef FAULT_RUPTURE_WATER
+#else
 /// Pore water over time, from when the fault begins to move: a row of water.csv for every accepted step.
-template <class SceneType>
 class WaterLog : public scarp::NeverStops {
  public:
   /// unit: of loads in tables [m]
-  WaterLog(std::filesystem::path const& folder, SceneType const& scene, double unit, scarp::CsvStart start)
+  WaterLog(std::filesystem::path const& folder, Scene const& scene, double unit, scarp::CsvStart start)
       : scene_(scene), unit_(unit), table_(folder / "water.csv", {names.begin(), names.end()}, start) {}
 
-  template <class Problem>
   void attempted(Problem const& problem, scarp::StepReport const& report) {
     rest_.attempted(problem, report);
     if (!report.verdict.acceptable()) return;
-    if (!(report.load > 0.0)) expelled_ = water_of(problem).expelled();
+    if (!(report.load > 0.0)) expelled_ = problem.attached<Water>().expelled();
     if (report.load < 0.0) return;
     rows_.push_back(row_of(problem, report.load));
     std::apply([&](auto... values) { table_.add(values...); }, rows_.back());
@@ -54,7 +48,7 @@ class WaterLog : public scarp::NeverStops {
     auto const add = [&](char const* when, Row const& row) {
       for (std::size_t k = 0; k < names.size(); ++k) json["water"][when][names[k]] = row[k];
     };
-    double const thrown = scene_.structure.times.rupture;
+    double const thrown = scene_.rupture_time;
     for (auto const& [when, time] :
          {std::pair("after_the_throw", thrown), std::pair("after_a_minute", thrown + 60.0)}) {
       auto const is_then = [time = time](Row const& row) { return std::abs(row[1] - time) <= 1e-9 * time; };
@@ -66,6 +60,7 @@ class WaterLog : public scarp::NeverStops {
   SCARP_MEMBERS_EXCEPT((scene_, unit_), table_, rest_, rows_, expelled_)
 
  private:
+  using Water = scarp::PoreWater<Grid, scarp::KozenyCarman>;
   static constexpr std::array names{"throw_over_depth",
                                     "time",
                                     "excess_pressure_min",
@@ -79,14 +74,9 @@ class WaterLog : public scarp::NeverStops {
                                     "tilt"};
   using Row = std::array<double, names.size()>;
 
-  template <class Problem>
-  auto const& water_of(Problem const& problem) const {
-    return problem.template attached<decltype(scene_.structure.field(problem.discretisation(), scene_.throw_to))>();
-  }
-  template <class Problem>
   Row row_of(Problem const& problem, double load) const {
     auto const& grid = problem.discretisation();
-    auto const& water = water_of(problem);
+    auto const& water = problem.attached<Water>();
     auto const pressures = water.pressures();
     auto const [least, most] = std::ranges::minmax(pressures);
     double ratio = 0.0;
@@ -94,16 +84,16 @@ class WaterLog : public scarp::NeverStops {
       double const carried = scene_.overburden(scene_.ground.surface_level() - grid.nodes()[node].y());
       if (carried > 0.0) ratio = std::max(ratio, pressures[node] / carried);
     }
-    auto const offset = scarp::offset_at(scene_.fault, std::min(load, scene_.throw_to));
+    auto const offset = scarp::offset_at(scene_.fault, std::min(load, scene_.stages.throw_to));
     auto const survey = scarp::rupture_survey(grid.mesh(), rest_.of(grid.nodes()), grid.positions(), offset);
     double settlement = std::numeric_limits<double>::quiet_NaN();
     double tilt = settlement;
-    if constexpr (requires { scene_.structure.motion(problem, load); }) {
-      auto const motion = scene_.structure.motion(problem, load);
+    if (scene_.footing) {
+      auto const motion = scene_.footing->motion(problem, load);
       settlement = motion.settlement;
       tilt = motion.tilt;
     }
-    return {std::min(load, scene_.throw_to) / unit_,
+    return {std::min(load, scene_.stages.throw_to) / unit_,
             water.time(),
             least,
             most,
@@ -116,19 +106,13 @@ class WaterLog : public scarp::NeverStops {
             tilt};
   }
 
-  SceneType const& scene_;
+  Scene const& scene_;
   double unit_;
   scarp::CsvLog table_;
   scarp::GroundAtRest<2> rest_;
   std::vector<Row> rows_;
   double expelled_ = 0.0;  ///< until the fault begins to move [m3]
 };
-
-template <class Structure>
-auto water_log(std::filesystem::path const& folder, Scene<scarp::Saturated<Structure>> const& scene, double unit,
-               scarp::CsvStart start) {
-  return WaterLog<Scene<scarp::Saturated<Structure>>>(folder, scene, unit, start);
-}
 #endif
 
 }  // namespace fault_rupture

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "../../shared/study/any_soil.hpp"
+#include <cstddef>
+
+#include "../../shared/study/choice.hpp"
+#include "../../shared/study/to_device.hpp"
 
 namespace fault_rupture {
 

@@ -8,6 +8,7 @@
 #include "choice.hpp"
 #include "scarp/points/any_provider.hpp"
 #include "scarp/solver/quasi_newton.hpp"
+#include "to_device.hpp"
 
 namespace fault_rupture {
 
@@ -24,10 +25,6 @@ struct AnySoil {
   PackingWriter write_packing{};           ///< nothing for soils without packings
   double shear_modulus = 0.0;              ///< of a soil without packings, about that of one with [Pa]
 };
-
-struct Sand;
-/// Puts the packings of a sand on a device; empty where they stay on the processor.
-using ToDevice = std::function<scarp::AnyProvider<2>(Sand const& sand)>;
 
 /// sites: of all points that will be soil
 /// \throws scarp::PreparationError

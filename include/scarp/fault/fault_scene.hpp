@@ -12,6 +12,7 @@
 #include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
+#include "scarp/fault/fault_stages.hpp"
 #include "scarp/fault/ground.hpp"
 #include "scarp/solver/load_stepping.hpp"
 #include "scarp/solver/make_problem.hpp"
@@ -167,43 +168,32 @@ struct SCARP_EXPORT FaultScene {
   /// \throws InputError for parts that do not fit, and for soil that does not carry the weight
   EquilibriumProblem<Grid> problem(Executor& executor) const;
 
-  /// First stage: the ground as prepared is brought into equilibrium.
+  /// Stages by load factor, whatever stands on the ground.
+  FaultStages<Solver> stages() const { return {solver, stepping, structure.start(), throw_to, end()}; }
+  /// First stage, see FaultStages.
   template <class ProblemType, class Observer>
   RunReport settle(ProblemType& problem, Observer& observer) const {
-    return stepping.settle(solver, problem, structure.start(), observer);
+    return stages().settle(problem, observer);
   }
-
-  /// Second stage: the structure is placed; without one nothing happens.
+  /// Second stage, see FaultStages.
   template <class ProblemType, class Observer>
   RunReport place(ProblemType& problem, Observer& observer) const {
-    LoadStepping const shares{.first = 0.05};  // of the load
-    LoadStepping stage = stepping;
-    stage.first = shares.first;
-    stage.smallest = shares.smallest;
-    stage.largest = shares.largest;
-    return stage.run(solver, problem, structure.start(), 0.0, observer);
+    return stages().place(problem, observer);
   }
-
-  /// Third stage: the bedrock moves.
+  /// Third stage, see FaultStages.
   template <class ProblemType, class Observer>
   RunReport rupture(ProblemType& problem, Observer& observer) const {
-    return stepping.run(solver, problem, 0.0, throw_to, observer);
+    return stages().rupture(problem, observer);
   }
-
+  /// Last stage, see FaultStages.
+  template <class ProblemType, class Observer>
+  RunReport rest(ProblemType& problem, Observer& observer) const {
+    return stages().rest(problem, observer);
+  }
   /// Load factor at the end of all stages.
   double end() const {
     if constexpr (requires { structure.end(throw_to); }) return structure.end(throw_to);
     return throw_to;
-  }
-
-  /// Last stage, where end() is beyond the throw: the bedrock rests, and what its motion has begun ends, such as
-  /// drainage.
-  template <class ProblemType, class Observer>
-  RunReport rest(ProblemType& problem, Observer& observer) const {
-    LoadStepping stage = stepping;
-    stage.first = stage.largest = end() - throw_to;  // steps end at knots
-    stage.smallest = 1e-6 * stage.first;
-    return stage.run(solver, problem, throw_to, end(), observer);
   }
 
  private:

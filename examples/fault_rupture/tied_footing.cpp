@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSL-1.0
-#include "run_scene.hpp"
-
-namespace fault_rupture {
-template int run(Choice const&, Scene<TiedFooting> const&, Start const&);
-template std::vector<scarp::Vector<2>> strained_by(Choice const&, Scene<TiedFooting> const&);
-}  // namespace fault_rupture
