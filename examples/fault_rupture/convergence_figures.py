@@ -52,6 +52,7 @@ def convergence(folder):
     effort.plot(throw[accepted], iterations[accepted], ".", color=BLUE)
     effort.plot(throw[~accepted], iterations[~accepted], "x", color=VERMILION)
     effort.set(ylabel="iterations per\nload step [-]", ylim=(0.0, None))
+    effort.yaxis.set_major_locator(MaxNLocator(integer=True))
     last = effort
     if packings:
         last, = work
@@ -79,8 +80,11 @@ def effort(folder):
     throw = values(steps, "throw_over_depth")
     accepted = values(steps, "accepted") > 0.0
     packings = values(steps, "dem_steps").any()
-    panels = 4 if packings else 2
-    fig, (*of_packings, unwell, time) = plt.subplots(panels, 1, figsize=(7.6, 2.05 * panels), sharex=True)
+    marks = (("fluid", SKY, "o"), ("not_converged", ORANGE, "^"), ("failed", VERMILION, "x"))
+    unwell = [mark for mark in marks if values(iterations, "points", mark[0]).any()]
+    panels = (2 if packings else 0) + bool(unwell) + 1
+    fig, grid = plt.subplots(panels, 1, figsize=(7.6, 2.05 * panels), sharex=True, squeeze=False)
+    *others, time = grid[:, 0]
 
     def draw_steps(axes, amounts, good, refused, label):
         axes.plot(throw[accepted], amounts[accepted], ".", color=good, label=label)
@@ -89,7 +93,7 @@ def effort(folder):
 
     at = values(iterations, "throw_over_depth")
     if packings:
-        work, slow = of_packings
+        work, slow, *others = others
         draw_steps(work, values(steps, "dem_steps"), BLUE, VERMILION, "accepted")
         work.set(ylabel="DEM steps per\nload step [-]")
         work.set_yscale("log", nonpositive="mask")
@@ -101,17 +105,15 @@ def effort(folder):
         slow.plot(at[busy], 100.0 * most[busy] / all_steps[busy], ".", color=GREEN, markersize=3)
         slow.set(ylabel="DEM steps of the five\nslowest points [%]", ylim=(0.0, None))
     else:
-        unwell.set_title("Cost of the load steps", fontsize=9)
+        grid[0, 0].set_title("Cost of the load steps", fontsize=9)
 
-    marks = (("fluid", SKY, "o"), ("not_converged", ORANGE, "^"), ("failed", VERMILION, "x"))
-    for name, colour, mark in marks:
-        count = values(iterations, "points", name)
-        if count.any():
-            unwell.plot(at[count > 0], count[count > 0], mark, color=colour, markersize=3, label=name.replace("_", " "))
-    unwell.set(ylabel="points that are\nnot ok [-]", ylim=(0.0, None))
-    unwell.yaxis.set_major_locator(MaxNLocator(integer=True))
-    if unwell.lines:
-        unwell.legend(loc="upper left", ncol=3)
+    for panel in others:
+        for name, colour, mark in unwell:
+            count = values(iterations, "points", name)
+            panel.plot(at[count > 0], count[count > 0], mark, color=colour, markersize=3, label=name.replace("_", " "))
+        panel.set(ylabel="points that are\nnot ok [-]", ylim=(0.0, None))
+        panel.yaxis.set_major_locator(MaxNLocator(integer=True))
+        panel.legend(loc="upper left", ncol=3)
 
     inside = values(steps, "seconds_in_points")
     outside = values(steps, "seconds") - inside
