@@ -256,6 +256,18 @@ TEST_CASE("a consolidation in steps by its error that was saved goes on with the
   CHECK(bits_of(whole) == bits_of(resumed));
 }
 
+TEST_CASE("a step that a knot has cut short does not make a rate of what the solver has left") {
+  constexpr double rate = 10.0;
+  constexpr double left = 0.1;
+  auto const change = [](double value) { return Eigen::VectorXd::Constant(1, value); };
+  scarp::detail::TimeError error;
+  error.commit(change(rate), 1.0);
+  error.commit(change(rate * 1e-3 + left), 1e-3);
+  CHECK(error.of(change(rate), 1.0) < left);
+  error.commit(change(rate), 1.0);  // a long step is its own
+  CHECK(error.of(change(rate), 1.0) == 0.0);
+}
+
 TEST_CASE("a time error without sense is refused") {
   auto const grid = column_grid(2);
   for (double const wrong : {0.0, -1.0, infinite, std::numeric_limits<double>::quiet_NaN()})

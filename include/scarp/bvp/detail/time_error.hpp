@@ -13,7 +13,8 @@ namespace scarp::detail {
 /// this step and of the last one in which time passed (Sloan and Abbo 1999, Int. J. Numer. Anal. Meth. Geomech. 23,
 /// 467; they control displacements). Before the first one the rates are 0, those of a state at rest: a ground that was
 /// loaded at once, or whose loads turn, has the error of first order \f$ \frac{\Delta t}{2} |\Delta \dot u| \f$, and
-/// begins in small steps.
+/// begins in small steps. The rate of a step of less than half the length of the one before, such as one that a knot
+/// has cut short, is that of both: alone it is what the solver's tolerance leaves, over next to no time.
 class TimeError {
  public:
   using Values = Eigen::VectorXd;
@@ -27,14 +28,18 @@ class TimeError {
 
   void commit(Values const& change, double duration) {
     if (!(duration > 0.0)) return;
-    Values const rate = change / duration;
+    bool const is_cut = 2.0 * duration < time_;
+    Values const rate =
+        is_cut ? Values((change + time_ * viewed(rate_)) / (duration + time_)) : Values(change / duration);
+    time_ = duration;
     rate_.assign(rate.begin(), rate.end());
   }
 
-  SCARP_MEMBERS(rate_)
+  SCARP_MEMBERS(rate_, time_)
 
  private:
   std::vector<double> rate_{};  ///< of the last step with time [1/s]; empty before
+  double time_ = 0.0;           ///< of that step [s]
 };
 
 }  // namespace scarp::detail
