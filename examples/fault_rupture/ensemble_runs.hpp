@@ -41,8 +41,7 @@ struct EnsembleRuns {
                           "name fewer --seeds");
     for (auto& member : members) member->prepare();  // what is rejected here leaves older results alone
     folder.begin();
-    remove_older_summaries(folder.path());
-    std::filesystem::remove(folder.path() / "convergence.csv");
+    remove_older_results(folder.path(), false);
     scarp::ThreadExecutor threads(choice.threads);
     {
       std::vector<std::jthread> runs;

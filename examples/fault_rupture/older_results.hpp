@@ -16,12 +16,15 @@ inline void remove_older_summaries(std::filesystem::path const& folder) {
 inline void remove_older_results(std::filesystem::path const& folder, bool goes_on) {
   remove_older_summaries(folder);
   if (goes_on) return;
-  for (auto const* name :
-       {"fields.pvd", "footing.csv", "footing_base.csv", "water.csv", "packing_grains.csv", "packing_contacts.csv"})
+  for (auto const* name : {"fields.pvd", "surface.csv", "probe_A.csv", "probe_B.csv", "convergence.csv",
+                           "convergence.jsonl", "footing.csv", "footing_base.csv", "water.csv", "packing_grains.csv",
+                           "packing_contacts.csv", "packing_cell.csv"})
     std::filesystem::remove(folder / name);
-  for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
-    std::string const name = file.path().filename().string();
-    if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
+  if (std::filesystem::exists(folder / "fields")) {
+    for (auto const& file : std::filesystem::directory_iterator(folder / "fields")) {
+      std::string const name = file.path().filename().string();
+      if (name.starts_with("step_") && name.ends_with(".vtu")) std::filesystem::remove(file.path());
+    }
   }
   if (!std::filesystem::exists(folder / "packings")) return;
   for (auto const& file : std::filesystem::directory_iterator(folder / "packings")) {

@@ -74,6 +74,7 @@ class CalibrationReport {
       examples::print(stdout, "{} {:.5g} +- {:.2g} where {:.5g} is wanted; {:.5g} +- {:.2g} on other seeds\n", one.name,
                       value, scatter, one.wanted, other, other_scatter);
     });
+    warn_of_no_peak();
   }
 
   /// What was found of each free parameter, in words.
@@ -127,6 +128,17 @@ class CalibrationReport {
   }
 
  private:
+  void warn_of_no_peak() const {
+    auto const peak = std::ranges::find_if(calibration_.observations,
+                                           [](Observation const& one) { return one.name.starts_with("peak-"); });
+    if (peak == calibration_.observations.end() || other_.mean.rows.empty()) return;
+    if (laboratory_results<2>(other_.mean.rows, calibration_.window).rises)
+      examples::print(stderr,
+                      "warning: the stress ratio rises to the end of the tests, so that {} is not that of a peak: give "
+                      "a larger --strain\n",
+                      peak->name);
+  }
+
   struct Parameter {
     std::string name;
     double value;

@@ -35,7 +35,7 @@ nlohmann::json json_of(LaboratoryResults<Dim> const& results, Place const& place
   nlohmann::json json{{"peak", nullptr},
                       {"residual", nullptr},
                       {"phase_transformation", nullptr},
-                      {"peak_dilation_angle", results.peak_dilation / degree},
+                      {"peak_dilation_angle", (results.rises ? std::nan("") : results.peak_dilation) / degree},
                       {"secant_dilation_angle", results.secant_dilation / degree},
                       {"E50", results.secant_modulus},
                       {"G0", results.shear_modulus},

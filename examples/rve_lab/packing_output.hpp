@@ -4,6 +4,7 @@
 #include "../shared/print.hpp"
 #include "../shared/sand/sand_file.hpp"
 #include "choices.hpp"
+#include "commands.hpp"
 #include "scarp/homogenise/balance.hpp"
 #include "scarp/homogenise/fabric.hpp"
 #include "scarp/io/packings/packing_file.hpp"
@@ -18,6 +19,8 @@ template <class PackingType>
 void write_packing(Test const& choice, scarp::RunFolder& own, PackingType const& packing,
                    typename PackingType::Law const& law) {
   own.begin();
+  remove_older(own,
+               {"packing_particles.csv", "packing_contacts.csv", "packing_cell.csv", "packing.txt", "packing.data"});
   std::filesystem::path const& folder = own.path();
   auto const file = folder / "packing.packing";
   scarp::save_packing(file, packing);

@@ -79,3 +79,10 @@ TEST_CASE("nodes, axes and rates that do not exist are refused") {
   CHECK_REFUSED(constraints.fix(0, 2), "node 0, axis 2", "0 to 1");
   CHECK_REFUSED(constraints.move(0, 0, std::numeric_limits<double>::quiet_NaN()), "rate", "nan");
 }
+
+TEST_CASE("a node that cannot be held along one axis is held along none") {
+  auto constraints = on_square();
+  constraints.move(0, 1, 0.5);
+  CHECK_REFUSED(constraints.fix(0), "node 0, axis 1 is prescribed twice");
+  CHECK_FALSE(constraints.is_prescribed(0));
+}

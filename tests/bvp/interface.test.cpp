@@ -322,3 +322,35 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
       CHECK(point.pressure == samples::Approx(pressure).epsilon(1e-9));
   }
 }
+
+TEST_CASE("an interface commits the state of the increment, whatever forces were requested last") {
+  using Law = scarp::LinearFrictional;
+  auto const state_of = [](bool looks_back) {
+    Bed bed{.rigid_ground = true};
+    auto problem = bed.problem(Law{5e7, 5e7, 0.5}, {0.0, 0.0}, 0.0);
+    Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
+    CHECK(problem.attached_stiffness().norm() == 0.0);  // nothing was requested yet
+    Eigen::VectorXd increment = still;
+    increment(problem.first_beside()) = 2e-4;
+    increment(problem.first_beside() + 1) = -1e-3;
+    static_cast<void>(problem.evaluate(increment));
+    if (looks_back) static_cast<void>(problem.attached_forces(still));
+    problem.commit(increment);
+    return problem.attached<Footed<Law>>().points()[0];
+  };
+  auto const expected = state_of(false);
+  auto const found = state_of(true);
+  CHECK(expected.pressure > 0.0);
+  CHECK(found.pressure == expected.pressure);
+  CHECK(found.shear == expected.shear);
+}
+
+TEST_CASE("an increment is not committed at another load than that it was evaluated at") {
+  Bed bed;
+  auto problem = bed.problem(scarp::LinearFrictional{5e7, 5e7, 0.5}, {0.0, -1e3}, 0.0);
+  Eigen::VectorXd const still = Eigen::VectorXd::Zero(problem.dof_count());
+  problem.set_load(0.5);
+  static_cast<void>(problem.evaluate(still));
+  problem.set_load(1.0);
+  CHECK_REFUSED(problem.commit(still), "evaluate it first");
+}

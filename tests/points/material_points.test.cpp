@@ -14,6 +14,7 @@
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/fault/strip_on_surface.hpp"
 #include "scarp/mesh/box_mesh.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/make_problem.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "support/approx.hpp"
@@ -379,4 +380,24 @@ TEST_CASE("regions that do not fit the mesh are refused by name") {
   std::vector<scarp::Site<2>> const outside{{.region = 1}};
   CHECK_REFUSED(scarp::points_of_regions<2>(hana::make_tuple(soil()), names, outside, {}, [](int) { return true; }),
                 "region '1' of the mesh has no provider (point 0 lies in it)");
+}
+
+TEST_CASE("points are not refined without a response") {
+  Points points(Concrete::from_young_poisson(20e6, 0.3), numbered(1));
+  scarp::SerialExecutor const executor;
+  auto const refined = [&] { static_cast<void>(points.refine(executor)); };
+  CHECK_REFUSED(refined(), "let them respond first");
+  strain(points, 1e-3);
+  REQUIRE(points.respond(executor).verdict.acceptable());
+  SUBCASE("after a commit") { points.commit(); }
+  SUBCASE("after a discard") { points.discard(); }
+  SUBCASE("at other gradients") { points.set_gradients({2.0 * points.own_gradients()[0]}, executor); }
+  CHECK_REFUSED(refined(), "let them respond first");
+}
+
+TEST_CASE("the copy of a point that is not there is refused, with means too") {
+  std::vector<double> const volumes(2, 1.0);
+  Points points(scarp::Nonlocal{Concrete::from_young_poisson(20e6, 0.3), 1.0}, numbered(2), volumes);
+  REQUIRE(points.means() != nullptr);
+  CHECK_REFUSED(points.copy(0, points, 70), "point 70");
 }

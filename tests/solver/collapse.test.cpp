@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/mesh/box_mesh.hpp"
@@ -161,4 +162,66 @@ TEST_CASE("settings that make no sense are rejected") {
   };
   CHECK_REFUSED(scarp::reduce_strength(later), "loads change at 2");
   CHECK_REFUSED(scarp::reduce_strength(slope, {.load = 0.5}), "loads change at 1");  // half of the weight
+}
+
+namespace {
+
+/// Elastic up to a size of strain, and a thousand times softer beyond it.
+struct Bilinear {
+  static constexpr int dim = 2;
+  static constexpr bool exact_tangent = true;
+  struct State {
+    scarp::EngineeringStrain<2> strain = scarp::EngineeringStrain<2>::Zero();
+    SCARP_MEMBERS(strain)
+  };
+  double yields = 1.0;
+
+  static State initial_state(scarp::Site<2> const&) { return {}; }
+  scarp::VoigtStress<2> stress(State const& state) const {
+    return share(state.strain.norm()) * elastic() * state.strain;
+  }
+  scarp::VoigtTangent<2> tangent(State const& state) const {
+    double const size = state.strain.norm();
+    scarp::VoigtTangent<2> found = share(size) * elastic();
+    if (size > yields)
+      found += (softer - share(size)) / (size * size) * elastic() * state.strain * state.strain.transpose();
+    return found;
+  }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    trial = {committed.strain + scarp::to_engineering_strain<2, double>(increment)};
+    return {stress(trial), {}};
+  }
+
+ private:
+  static constexpr double softer = 1e-3;
+  static scarp::VoigtTangent<2> elastic() { return scarp::LinearElastic<2>::from_young_poisson(1e7, 0.25).tangent({}); }
+  double share(double size) const { return size <= yields ? 1.0 : (yields + softer * (size - yields)) / size; }
+};
+
+}  // namespace
+
+TEST_CASE("ground that fails in the step which comes to the end has failed, whatever the length of the steps") {
+  // Of a side under 1 kPa: (1 - nu^2, -nu (1 + nu)) times stress over modulus.
+  double const strain = 1e-4 * std::hypot(1.0 - 0.25 * 0.25, 0.25 * 1.25);
+  auto const model = [&](double factor) {
+    scarp::Model<2> made(Grid(scarp::BoxMesh<scarp::Quad8>{.cells = {1, 1}}.generate()));
+    made.fix({"left"}, 0);
+    made.fix({"bottom"}, 1);
+    made.surcharge({"top"}, 1e3, scarp::TimeFunction::ramp(0.0, 1.0));
+    made.material("soil", Bilinear{.yields = 0.97 * strain / factor});
+    return made;
+  };
+  for (double const step : {0.05, 0.01}) {
+    CAPTURE(step);
+    scarp::StrengthReduction settings;
+    settings.to = 1.2;
+    settings.analysis.stepping.first = settings.analysis.stepping.largest = step;
+    scarp::Analysis analysis(model(1.0), settings.analysis);
+    auto const end = find_collapse(analysis, 1.0);
+    CHECK(end.failed);
+    CHECK_FALSE(end.stands());
+    auto const factor = scarp::reduce_strength(model, settings);
+    CHECK(factor.stands == 0.0);
+    CHECK(factor.fails == 1.0);
+  }
 }

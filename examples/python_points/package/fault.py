@@ -65,8 +65,9 @@ class FaultRun(Run):
 
     @property
     def within_budget(self) -> bool:
-        """Whether no part of the error budget exceeds its bound, in any member."""
-        return all(part.within for part in self.error_budget.values()) and all(one.within_budget for one in self.members)
+        """Whether no part of the error budget exceeds its bound, in any member; False where there is none yet."""
+        parts, members = self.error_budget.values(), self.members
+        return bool(parts or members) and all(part.within for part in parts) and all(one.within_budget for one in members)
 
     @functools.cached_property
     def surface(self) -> Columns:

@@ -289,7 +289,9 @@ class Analysis:
 
     def at_elements(self, of_points: npt.ArrayLike) -> Floats:
         """Means of numbers of the points over their elements, weighted by volume, shape (elements, ...)."""
-        values = np.asarray(of_points, dtype=float)
+        values, count = np.asarray(of_points, dtype=float), len(self.point_elements)
+        if values.ndim == 0 or len(values) != count:
+            raise ValueError(f"the numbers have the shape {values.shape} (({count}, ...) is expected, for so many points): give one to each")
         sums = np.zeros((len(self.mesh.elements), *values.shape[1:]))
         weights = np.zeros(len(sums))
         volumes = self.volumes

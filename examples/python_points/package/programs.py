@@ -154,8 +154,8 @@ def run(name: str, words: Iterable[str], progress: Progress = None) -> List[str]
         finally:
             teller.close()
     for line in lines:
-        if line.startswith("warning: "):
-            warnings.warn(line[len("warning: "):], stacklevel=4)
+        if told := re.match(r"(seed \d+: )?warning: (.*)", line):
+            warnings.warn((told[1] or "") + told[2], stacklevel=4)
     if code != 0:
         _fail(program.name, code, lines)
     return lines

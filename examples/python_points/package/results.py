@@ -99,9 +99,10 @@ def _equal(one: str, other: str) -> bool:
 
 
 def input_files(given: Mapping[str, List[str]]) -> Dict[str, str]:
-    """SHA-256 of each file that the options name."""
-    files = (word for words in given.values() for word in words if os.path.isfile(word))
-    return {file: hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() for file in files}
+    """SHA-256 of each file that the options name, alone or in a list, and of the sand beside a packing."""
+    words = [one for words in given.values() for word in words for one in (word, *word.split(","))]
+    sands = [os.path.splitext(word)[0] + ".sand" for word in words if word.endswith(".packing")]
+    return {file: hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() for file in (*words, *sands) if os.path.isfile(file)}
 
 
 def _inputs_of(record: pathlib.Path) -> pathlib.Path:

@@ -149,9 +149,11 @@ struct Attachments {
     if (!field) return;
     require_thickness(grid, field->thickness());
     auto const* const own = field->grid();
-    if (own && (typeid(*own) != typeid(grid) || own->nodes() != grid.nodes()))
+    if (own && (typeid(*own) != typeid(grid) || own->nodes() != grid.nodes() ||
+                (grid.turns_stresses() && own->positions() != grid.positions())))
       reject(
-          "the field is of other elements or another mesh than the problem ({} and {} nodes): make it of the same grid",
+          "the field is of other elements, another mesh or other positions than the problem ({} and {} nodes): make it "
+          "of the same grid",
           own->node_count(), grid.node_count());
     field->require_free(constraints, loads, grid.dof_count() + part_dofs());
   }
@@ -171,7 +173,11 @@ struct Attachments {
     return assembled(field.get(), &AttachedField<Dim>::add_stiffness, size);
   }
   void commit(std::vector<Vector<Dim>> const& nodes, Eigen::VectorXd const& increment) {
-    if (part) part->commit(nodes, increment);
+    if (part) {  // with the trial state of the increment, whatever was requested last
+      Eigen::VectorXd unused = Eigen::VectorXd::Zero(increment.size());
+      static_cast<void>(part->add_forces(nodes, increment, unused));
+      part->commit(nodes, increment);
+    }
     if (field) field->commit(nodes, increment);
   }
   /// \throws InputError for one that cannot be saved

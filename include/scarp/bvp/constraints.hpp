@@ -36,22 +36,17 @@ class Constraints {
   /// \throws InputError for a node or axis that does not exist, or one that is already moved
   void fix(int node, int axis) { move(node, axis, 0.0); }
 
-  /// Fixes every axis of a node.
+  /// Fixes every axis of a node, or none.
   void fix(int node) {
-    for (int axis = 0; axis < dim_; ++axis) {
-      fix(node, axis);
-    }
+    for (int axis = 0; axis < dim_; ++axis) require_one_motion(dof_of(node, axis), words(node, axis), 0.0, {});
+    for (int axis = 0; axis < dim_; ++axis) fix(node, axis);
   }
 
   /// Moves a node along an axis of space by rate [m] times the growth of `amplitude` since the load factor 0.
   /// \throws InputError for a node or axis that does not exist, a rate that is not finite, or a second, different
   /// motion
   void move(int node, int axis, double rate, TimeFunction amplitude = {}) {
-    if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
-      reject("node {}, axis {} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", node,
-             axis, nodes_ - 1, dim_ - 1);
-    }
-    prescribe(dim_ * node + axis, fmt::format("node {}, axis {}", node, axis), rate, std::move(amplitude));
+    prescribe(dof_of(node, axis), words(node, axis), rate, std::move(amplitude));
   }
 
   /// Moves a degree of freedom of an attached body, counted from 0, by rate [m] times the growth of `amplitude` since
@@ -112,19 +107,29 @@ class Constraints {
     TimeFunction amplitude{};
   };
 
-  void prescribe(int dof, std::string const& what, double rate, TimeFunction amplitude) {
-    require_finite("rate of a prescribed displacement", rate);
-    auto& known = motions_[detail::index(dof)];
-    if (!known) {
-      known = {rate, std::move(amplitude)};
-      return;
+  static std::string words(int node, int axis) { return fmt::format("node {}, axis {}", node, axis); }
+  int dof_of(int node, int axis) const {
+    if (node < 0 || node >= nodes_ || axis < 0 || axis >= dim_) {
+      reject("{} is prescribed (the mesh has nodes 0 to {} and axes 0 to {}): check the numbers", words(node, axis),
+             nodes_ - 1, dim_ - 1);
     }
+    return dim_ * node + axis;
+  }
+  void require_one_motion(int dof, std::string const& what, double rate, TimeFunction const& amplitude) const {
+    auto const& known = motions_[detail::index(dof)];
+    if (!known) return;
     if (known->rate != rate) {
       reject("{} is prescribed twice (rates {} and {} differ): decide for one of them", what, known->rate, rate);
     }
     if (rate != 0.0 && !(known->amplitude == amplitude)) {
       reject("{} is prescribed twice (by different amplitudes of the rate {}): decide for one of them", what, rate);
     }
+  }
+  void prescribe(int dof, std::string const& what, double rate, TimeFunction amplitude) {
+    require_finite("rate of a prescribed displacement", rate);
+    require_one_motion(dof, what, rate, amplitude);
+    auto& known = motions_[detail::index(dof)];
+    if (!known) known = {rate, std::move(amplitude)};
   }
 
   std::vector<int> dofs(bool prescribed) const {

@@ -73,6 +73,7 @@ class Interface {
       if constexpr (Bonds<Law>) Law::bond(committed_[k].memory);
     }
     trial_ = committed_;
+    couplings_.resize(trial_.size());
   }
 
   Law const& law() const { return law_; }     ///< stresses [Pa] of relative displacements [m]
@@ -228,7 +229,6 @@ class Interface {
 
   /// Degrees of freedom that move a point relative to its foot.
   void couple(std::size_t k, std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment) {
-    couplings_.resize(trial_.size());
     auto& jacobians = couplings_[k];
     jacobians.clear();
     for (auto const& lever : body_.jacobians_at(k, nodes, increment)) jacobians.push_back(lever);

@@ -27,8 +27,7 @@ namespace scarp {
 /// elements. Stresses of the materials are effective ones; the excess u of the pore pressure over that of water at rest
 /// [Pa], positive in compression, is unknown at the corners:
 /// \f$ \int (\sigma' - u I):\nabla w\,dv = W_{ext}, \qquad
-///     \int q \left( \frac{\dot J}{J} + S\,\dot u \right) dv + \int \frac{k}{\mu} \nabla q \cdot \nabla u\,dv = Q_{in}
-///     \f$
+///     \int q \left(\frac{\dot J}{J} + S\,\dot u\right) dv + \int \frac{k}{\mu} \nabla q \cdot\nabla u\,dv = Q_{in} \f$
 /// Force and volume are integrated as the ground is, S and k are those of the `HydraulicProvider`, time steps are
 /// implicit (backward Euler), and volumes are balanced in totals since the start. Weight is a dead load of what water
 /// does not carry: below the water table give the ground its buoyant unit weight.
@@ -67,7 +66,10 @@ class PoreWater {
 
   /// Another flow and void ratio for one region.
   /// \throws InputError for an unknown region, a flow outside of its range and a void ratio that is not positive
-  void region(std::string_view name, Flow const& flow, double void_ratio) { flow_.set(field_, name, flow, void_ratio); }
+  void region(std::string_view name, Flow const& flow, double void_ratio) {
+    flow_.set(field_, name, flow, void_ratio);
+    step_.is_known = false;
+  }
   /// Takes the water out of a region, such as a footing.
   /// \throws InputError for an unknown region, and boundaries there with a pressure or an inflow
   void exclude(std::string_view region) { exclude(field_.elements_of(region)); }
@@ -78,13 +80,13 @@ class PoreWater {
   /// \throws InputError for an unknown boundary, a pressure that is not finite, and one with another pressure
   void prescribe(Sides sides, double pressure, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
     require_finite("excess pore pressure of a boundary", pressure);
-    for (auto const side : sides) prescribe(field_.corners_on(side), pressure, amplitude);
+    boundaries_.prescribe(field_.corners_on(sides), pressure, amplitude, describe_corner());
   }
   /// Lets water in through boundaries, or out: volume per initial area and time [m/s], times an amplitude.
   /// \throws InputError for an unknown boundary, one of ground without water, and a rate that is not finite
   void inflow(Sides sides, double rate, TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
     require_finite("rate of inflow", rate);
-    for (auto const side : sides) boundaries_.let_in(rate * field_.areas(side), amplitude, describe_corner());
+    boundaries_.let_in(rate * field_.areas(sides), amplitude, describe_corner());
   }
 
   GridType const& grid() const { return field_.grid(); }  ///< Mesh and elements, committed.
@@ -93,8 +95,7 @@ class PoreWater {
   std::vector<double> pressures() const { return field_.at_nodes(pressure_); }
   std::vector<double> const& void_ratios() const { return flow_.void_ratios(); }  ///< of the points, committed
   double vapour() const { return vapour_ ? vapour_->volumes(view(pressure_)).sum() : 0.0; }  ///< committed volume [m3]
-  /// Volume [m3] that has left through boundaries of given pressure, committed.
-  double expelled() const { return -boundaries_.sum_of_given(left_); }
+  double expelled() const { return -boundaries_.sum_of_given(left_); }  ///< [m3] through given pressures, committed
   // What an attachment needs.
   /// Pressures over scale() [m], without the given ones; their balance is that of volumes times scale() [N].
   int extra_dofs() const { return detail::count(boundaries_.unknowns()); }
@@ -160,15 +161,14 @@ class PoreWater {
   static auto view(std::vector<double> const& values) { return detail::viewed(values); }
   Values change_of_unknowns() const { return (trial_.pressure - view(pressure_))(boundaries_.unknowns()); }
   void evaluate(Values const& increment);
-  void prescribe(std::vector<int> const& corners, double pressure,
-                 TimeFunction const& amplitude = TimeFunction::constant(1.0)) {
-    boundaries_.prescribe(corners, pressure, amplitude, describe_corner());
-  }
   auto describe_corner() const {
     return [this](int corner) { return field_.describe(corner); };
   }
   void exclude(std::vector<int> const& elements) {
-    boundaries_.take_out(field_.exclude(elements), describe_corner());
+    auto field = field_;
+    boundaries_.take_out(field.exclude(elements), describe_corner());
+    field_ = std::move(field);
+    step_.is_known = false;
     if (settings_.at_rest) vapour_.emplace(field_, *settings_.at_rest, vapour_modulus);
   }
 
@@ -199,7 +199,7 @@ PoreWater<GridType, Flow>::PoreWater(GridType grid, Flow const& flow, PoreWaterS
       then_(settings_.beginning()) {
   if (!settings.at_rest) return;
   auto const dry = detail::above(field_, settings.at_rest->level);
-  prescribe(dry.corners, 0.0);
+  boundaries_.prescribe(dry.corners, 0.0, TimeFunction::constant(1.0), describe_corner());
   exclude(dry.elements);
 }
 

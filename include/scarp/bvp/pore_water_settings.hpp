@@ -41,8 +41,8 @@ struct PoreWaterSettings {
   /// clock.
   std::optional<double> largest_time_error{};
 
-  /// \throws InputError for a modulus or an error that is not positive, times that are negative or fall, and wrong
-  /// water at rest
+  /// \throws InputError for a modulus or an error that is not positive, times that fall or begin below `begin`, or
+  /// below 0 without it, and wrong water at rest
   void validate() const {
     require_positive("shear modulus of the ground with pore water", shear_modulus);
     if (largest_time_error) require_positive("largest time error of the pore water", *largest_time_error);

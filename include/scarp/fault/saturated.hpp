@@ -17,7 +17,7 @@ struct RuptureTimes {
   double rupture = 1.0;   ///< that the whole throw takes [s]
   double drainage = 0.0;  ///< after the throw, while the bedrock rests [s]
 
-  static constexpr double per_decade = 6.0;  ///< steps of drainage, from a tenth of the rupture's time on
+  static constexpr double per_decade = 6.0;  ///< steps of drainage, from a hundredth of the rupture's time on
 
   /// \throws InputError for a rupture that takes no time, and a negative time of drainage
   void validate() const {
@@ -44,7 +44,7 @@ struct RuptureTimes {
   std::vector<double> of_drainage() const {
     std::vector<double> times;
     if (drainage == 0.0) return times;
-    double const first = std::min(rupture / 10.0, drainage);
+    double const first = std::min(rupture / 100.0, drainage);
     double const steps = std::floor(per_decade * std::log10(drainage / first));
     for (double step = 0.0; step < steps; step += 1.0)
       times.push_back(drainage * std::pow(first / drainage, (steps - step) / steps));

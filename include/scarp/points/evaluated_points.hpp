@@ -35,6 +35,8 @@ void MaterialPoints<Dim>::set_gradients(Gradients own, Executor const& executor)
 
 template <int Dim>
 ResponseReport MaterialPoints<Dim>::refine(Executor const& executor) {
+  if (!has_trial_)
+    reject("points are refined without a response since the last commit or discard: let them respond first");
   std::vector<int> unconverged;
   for (int const point : owned_) {
     if (responses_[detail::index(point)].verdict.status == Status::not_converged && batch(point).refine(local(point)))

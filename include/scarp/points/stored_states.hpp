@@ -63,6 +63,7 @@ void MaterialPoints<Dim>::copy(int to, MaterialPoints const& from, int point, bo
   if (has_means() != from.has_means())
     reject("point {} is to be copied between points with means and points without: take the same material for both",
            point);
+  from.existing(point);
   MeanState<Dim> state = from.means_ ? from.means_->committed(point) : MeanState<Dim>{};
   std::optional<Mirror<Dim>> mirror;
   if (is_mirrored) {

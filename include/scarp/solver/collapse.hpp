@@ -93,7 +93,7 @@ struct [[nodiscard]] Collapse {
   RunReport run{};      ///< all that is known of the run
   std::string why{};    ///< in words
 
-  bool stands() const { return run.verdict.acceptable(); }  ///< Whether the load was carried.
+  bool stands() const { return run.verdict.acceptable() && !failed; }  ///< Whether the load was carried.
 };
 
 /// Raises the load factor of an analysis to `to`, or until the ground fails. The first step that moves, of this call
@@ -119,7 +119,7 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
   end.load = end.run.load;
   end.ratio = watch.ratio();
   bool const is_out_of_balance = end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing;
-  end.failed = !end.stands() && (watch.wants_stop() || is_out_of_balance);
+  end.failed = watch.wants_stop() || is_out_of_balance;  // also in the step that comes to the end
   end.why =
       end.failed
           ? fmt::format(

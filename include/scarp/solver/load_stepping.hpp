@@ -251,6 +251,10 @@ struct LoadStepping {
       // Part of a prediction may come from the present imbalance, which no smaller increment removes.
       if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
       increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);
+      // What a field lacks at the end of a step is part of its linear system.
+      if constexpr (requires { problem.has_field(); }) {
+        if (problem.has_field() && !session.begin(load, end_of(load, to, increment)).acceptable()) return displacement;
+      }
     }
   }
 

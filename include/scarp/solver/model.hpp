@@ -80,7 +80,10 @@ class SCARP_EXPORT Model {
   /// Holds boundaries along all axes.
   /// \throws InputError for an unknown boundary
   void fix(Sides sides) {
-    for (int axis = 0; axis < dim; ++axis) fix(sides, axis);
+    Constraints all = constraints_;  // a rejected call changes nothing
+    for (auto const side : sides)
+      for (int const node : grid_->boundary_nodes(side)) all.fix(node);
+    constraints_ = std::move(all);
   }
   /// Moves boundaries along an axis by rate [m] times the growth of `amplitude` since the load factor 0.
   /// \throws InputError for an unknown boundary or axis, and nodes that are moved in another way already
@@ -255,12 +258,13 @@ template <int Dim>
 Problem<Dim> Model<Dim>::problem(Executor& executor) const {
   std::optional<MaterialPoints<dim>> points;
   executor.together([&] { points.emplace(detail::points_at(*grid_, surface_level(), regions_, executor)); });
+  detail::Attachments<dim> attached{nullptr, field_ ? field_() : nullptr};
   Eigen::VectorXd before;
   grid_->internal_force(Eigen::VectorXd::Zero(grid_->dof_count()), points->balanced_stresses(executor), before);
+  if (attached.field) before += attached.field->ground_force();
   LoadHistory loads = later_;
   loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
   loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
-  detail::Attachments<dim> attached{nullptr, field_ ? field_() : nullptr};
   Constraints constraints = constraints_;
   if (attached.field) {
     constraints.add_dofs(attached.field->extra_dofs());

@@ -93,7 +93,7 @@ class SCARP_EXPORT Problem {
 
   /// Forces are measured against the loads of a load factor; a step of an attached field ends there, or elsewhere.
   void set_load(double load, std::optional<double> field_at = {}) {
-    load_ = load;
+    if (std::exchange(load_, load) != load) evaluated_.resize(0);
     load_now_ = loads_.at(load);
     if (has_field()) attached_.field->at(field_at.value_or(load));
   }

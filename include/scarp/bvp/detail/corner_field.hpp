@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -178,26 +179,28 @@ class CornerField {
   }
 
   /// Areas [m2] of a boundary's corners, thickness included, on the initial mesh: \f$ \int N_a\,dA \f$
-  Eigen::VectorXd areas(std::string_view side) const {
-    using Facet = typename Corner::Facet;
+  Eigen::VectorXd areas(std::initializer_list<std::string_view> sides) const {
+    using Facet = typename Element::Facet;  // curved where the element is
+    using Ends = typename Corner::Facet;
     Eigen::VectorXd areas = Eigen::VectorXd::Zero(count());
-    for (auto const& facet : boundary(grid_.mesh(), side)) {
-      std::array<int, Facet::nodes> nodes{};
-      std::copy_n(facet.begin(), nodes.size(), nodes.begin());
-      auto const rows = scarp::corners<Facet, dim>(nodes, grid_.nodes());
-      for (auto const& where : Facet::quadrature()) {
-        ShapeValues<Facet> const shape = Facet::shape(where.xi);
-        double const size = grid_.thickness() * where.weight * measure<Facet, dim>(rows, where.xi);
-        for (int a = 0; a < Facet::nodes; ++a) areas(of_node_[index(nodes[index(a)])]) += size * shape(a);
+    for (auto const side : sides) {
+      for (auto const& facet : boundary(grid_.mesh(), side)) {
+        auto const rows = scarp::corners<Facet, dim>(facet, grid_.nodes());
+        for (auto const& where : Facet::quadrature()) {
+          ShapeValues<Ends> const shape = Ends::shape(where.xi);
+          double const size = grid_.thickness() * where.weight * measure<Facet, dim>(rows, where.xi);
+          for (int a = 0; a < Ends::nodes; ++a) areas(of_node_[index(facet[index(a)])]) += size * shape(a);
+        }
       }
     }
     return areas;
   }
-  /// Numbers of a boundary's corners.
-  std::vector<int> corners_on(std::string_view side) const {
+  /// Numbers of boundaries' corners.
+  std::vector<int> corners_on(std::initializer_list<std::string_view> sides) const {
     std::vector<int> found;
-    for (int const node : grid_.boundary_nodes(side))
-      if (int const corner = of_node_[index(node)]; corner >= 0) found.push_back(corner);
+    for (auto const side : sides)
+      for (int const node : grid_.boundary_nodes(side))
+        if (int const corner = of_node_[index(node)]; corner >= 0) found.push_back(corner);
     return found;
   }
   /// Values of corners as those of all nodes.

@@ -28,14 +28,14 @@ class PoreBoundaries {
   void prescribe(std::vector<int> const& corners, double pressure, TimeFunction const& amplitude,
                  Describe const& describe) {
     Course const course{pressure, amplitude};
-    for (int const corner : corners) {
-      auto& known = given_[index(corner)];
+    for (int const corner : corners) {  // a rejected call changes nothing
+      auto const& known = given_[index(corner)];
       if (pressure != 0.0) require_water(corner, describe);
       if (known && !is_bare_[index(corner)] && !(*known == course))
         reject("the pore pressure of {} is given twice (as {} and {} Pa, or with two amplitudes): decide for one",
                describe(corner), known->pressure, pressure);
-      known = course;
     }
+    for (int const corner : corners) given_[index(corner)] = course;
     number_unknowns();
   }
   /// rates [m3/s]: of all corners. \throws InputError for a corner that no water is around
@@ -49,14 +49,16 @@ class PoreBoundaries {
   /// \throws InputError for those where a pressure or an inflow is given
   template <class Describe>
   void take_out(std::vector<int> const& corners, Describe const& describe) {
+    auto all = *this;  // a rejected call changes nothing
     for (int const corner : corners) {
       auto const k = index(corner);
-      is_bare_[k] = 1;
-      if (given_[k] && given_[k]->pressure != 0.0) require_water(corner, describe);
+      all.is_bare_[k] = 1;
+      if (given_[k] && given_[k]->pressure != 0.0) all.require_water(corner, describe);
       for (auto const& [rates, amplitude] : inflows_)
-        if (rates(corner) != 0.0) require_water(corner, describe);
-      if (!given_[k]) given_[k] = Course{0.0, TimeFunction::constant(1.0)};
+        if (rates(corner) != 0.0) all.require_water(corner, describe);
+      if (!given_[k]) all.given_[k] = Course{0.0, TimeFunction::constant(1.0)};
     }
+    *this = std::move(all);
     number_unknowns();
   }
 

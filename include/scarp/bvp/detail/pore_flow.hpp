@@ -35,8 +35,8 @@ class PoreFlow {
   /// Of one region. \throws InputError as the constructor, and for an unknown region
   void set(Field const& field, std::string_view region, Flow const& flow, double void_ratio) {
     int const number = region_number(field.grid(), region);
-    flows_[index(number)] = validated(flow);
     require_positive(name_of_ratio, void_ratio);
+    flows_[index(number)] = validated(flow);
     for (int point = 0; point < field.grid().point_count(); ++point)
       if (field.region_of(Field::element_of(point)) == number) void_ratio_[index(point)] = void_ratio;
   }

@@ -6,6 +6,7 @@
 
 #include "scarp/bvp/detail/corner_field.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 
 namespace scarp::detail {
 
@@ -22,6 +23,10 @@ class TimeError {
   /// Largest estimate of all values, by their change in a step of a duration [s]; 0 where no time passes.
   double of(Values const& change, double duration) const {
     if (!(duration > 0.0)) return 0.0;
+    if (!rate_.empty() && viewed(rate_).size() != change.size())
+      reject(
+          "pore water was saved with {} unknown pressures (this one has {}): load it into one of the same boundaries",
+          rate_.size(), change.size());
     Values const bend = rate_.empty() ? change : change - duration * viewed(rate_);
     return bend.lpNorm<Eigen::Infinity>() / 2.0;
   }
