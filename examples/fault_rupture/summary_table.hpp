@@ -37,11 +37,13 @@ inline std::string table(nlohmann::ordered_json const& json) {
   row("vertical stress against overburden, largest error",
       fmt::format("{:.2f} %", 100.0 * number("vertical_stress_error")), "0");
   row("throw / depth", fmt::format("{:.4f}", number("throw_over_depth")), of_study("0.085"));
+  bool const is_free = !json.contains("footing_width");  // the study's places are those of its free field
   row("outcrop_x [m]: steepest line meets the surface", fmt::format("{:.2f}", number("outcrop_x")),
-      of_study("-12.5 (surface starts to deflect); dip alone -14.4", fault_line));
-  row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")), of_study("sharp band: -14.5 to -6.5"));
+      is_free ? of_study("-12.5 (surface starts to deflect); dip alone -14.4", fault_line) : fault_line);
+  row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")),
+      is_free ? of_study("sharp band: -14.5 to -6.5") : "");
   row("outcrop_width [m]", fmt::format("{:.2f}", number("outcrop_width")),
-      of_study("mild and broad slope, no figure given"));
+      is_free ? of_study("mild and broad slope, no figure given") : "");
   row("surface_x50 [m]: half of the throw has passed", fmt::format("{:.2f}", number("surface_x50")), fault_line);
   row("surface_x05, surface_x95 [m]", fmt::format("{:.2f}, {:.2f}", number("surface_x05"), number("surface_x95")),
       "a sharp band: both at surface_x50");

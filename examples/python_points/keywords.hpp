@@ -69,15 +69,21 @@ void take_keywords(py::dict given, Material& material) {
   }
 }
 
+/// \throws InputError for masked numbers
+inline void require_unmasked(py::handle given, std::string_view what) {
+  auto const masks = py::module_::import("numpy").attr("ma");
+  bool const is_list =
+      py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given);  // of rows, each with a mask perhaps
+  if (masks.attr("is_masked")(is_list ? masks.attr("array")(given) : py::reinterpret_borrow<py::object>(given))
+          .cast<bool>())
+    scarp::reject("{} are masked (a mask would be lost): fill the masked numbers, or leave their points out", what);
+}
+
 /// Rows of double precision without gaps. shape: of a row
 /// \throws InputError for other types and shapes
 inline py::array_t<double, py::array::c_style> rows_of(py::object const& given, char const* what,
                                                        std::vector<py::ssize_t> const& shape) {
-  auto const masks = py::module_::import("numpy").attr("ma");
-  bool const is_list =
-      py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given);  // of rows, each with a mask perhaps
-  if (masks.attr("is_masked")(is_list ? masks.attr("array")(given) : given).cast<bool>())
-    scarp::reject("{} are masked (a mask would be lost): fill the masked numbers, or leave their points out", what);
+  require_unmasked(given, what);
   auto const array = given.is_none() ? py::array() : py::array::ensure(given);
   if (!array || given.is_none()) {
     PyErr_Clear();

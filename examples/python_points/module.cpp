@@ -98,11 +98,22 @@ Places<Dim> places_of(py::object const& positions, py::object const& volumes, do
   return places;
 }
 
+/// \throws InputError for what is none
+int whole_number(py::object const& given, char const* what) {
+  try {
+    return given.cast<int>();
+  } catch (py::cast_error const&) {
+    scarp::reject("{} are {} (a whole number is expected): correct it", what,
+                  scarp::shortened(std::string(py::repr(given))));
+  }
+}
+
 /// progress, threads: of the preparation; the other keywords are the material's
 template <int Dim>
 Material<Dim> made(std::string const& kind, py::dict keywords) {
   py::object const progress = keywords.attr("pop")("progress", py::none());
-  int const threads = keywords.attr("pop")("threads", 1).template cast<int>();
+  py::object const wanted = keywords.attr("pop")("threads", 1);
+  int const threads = whole_number(wanted, "threads");
   std::string const bits = with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
     Recipe recipe;
     std::set<std::string> given;

@@ -408,8 +408,8 @@ void bind(py::module_& module, std::string const& suffix) {
                        double largest, double gradient, double floor, int threads) {
         auto const settings =
             settings_of(tolerance, max_iterations, first, smallest, largest, gradient, floor, threads);
-        return interruptible(
-            [&] { return model.used([&](auto const& own) { return std::make_unique<All>(own, settings); }); });
+        return model.used(  // before other threads go on
+            [&](auto const& own) { return interruptible([&] { return std::make_unique<All>(own, settings); }); });
       }))
       .def("to", &advance<Dim>)
       .def("find_collapse", &find_collapse<Dim>)

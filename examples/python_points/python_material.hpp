@@ -124,6 +124,7 @@ struct PythonMaterial {
           "expected): correct it",
           function, scarp::shortened(std::string(py::repr(returned))));
     auto const part = [&](std::size_t k, char const* what) -> Array {
+      require_unmasked(py::tuple(returned)[k], fmt::format("numbers of the {} that a material returned", what));
       Array array = Array::ensure(py::tuple(returned)[k]);
       if (!array) {
         PyErr_Clear();

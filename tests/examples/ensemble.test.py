@@ -85,4 +85,8 @@ with tempfile.TemporaryDirectory() as scratch:
 
     single = run(scratch, "--seed", "2", "--output", "all", "--overwrite")
     expect(single.returncode == 0 and not (scratch / "all" / "ensemble.json").exists(), "a single run leaves no older ensemble")
+    members = run(scratch, "--seeds", "1,2", "--output", "all", "--overwrite")
+    left = [path.name for path in (scratch / "all").rglob("*") if path.is_file() and "seed_" not in str(path)]
+    expect(members.returncode == 0 and not {"surface.csv", "probe_A.csv", "convergence.jsonl"} & set(left) and not any(name.endswith(".vtu") for name in left),
+           f"an ensemble leaves no older single run: {left}")
 finish()

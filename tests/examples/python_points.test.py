@@ -64,6 +64,7 @@ rejected(ValueError, "dim is '3' (expected is 2 or 3)", lambda: scarp.mohr_coulo
 outlier = np.ma.masked_greater(good + np.eye(2) * 1e-9, 0.9 * small)
 rejected(ValueError, "displacement gradients are masked", lambda: points.respond(outlier))
 rejected(ValueError, "displacement gradients are masked", lambda: points.respond([*outlier]))
+rejected(ValueError, "threads are '2'", lambda: scarp.discs(grains=20, threads="2"))
 rejected(ValueError, "positions are masked", lambda: scarp.MaterialPoints(scarp.linear_elastic(young=1e6), np.ma.masked_invalid([[0.0, np.nan]])))
 expect(np.array_equal(points.respond(np.ma.masked_greater(good, 1.0))[0], points.respond(good)[0]), "a mask of nothing changes the stress")
 rejected(ValueError, "point 3 is named (there are 3 points)", lambda: points.quantities(3))

@@ -319,6 +319,7 @@ with tempfile.TemporaryDirectory() as scratch:
     analysis = scarp.Analysis(footing(lambda rest: One(2, **rest)))
     analysis.to(2.0, fields=scarp.FieldSeries(folder / "series", to=2.0, count=2))
     expect(len(list((folder / "series/fields").glob("*.vtu"))) == 3 and (folder / "series/fields.pvd").is_file(), "files of a series are missing")
+    rejected(ValueError, "the numbers have the shape (1,)", lambda: analysis.at_elements([1.0]))
     expect(analysis.at_elements(analysis.stresses).shape == (32, 3) and abs(analysis.volumes.sum() / 8.0 - 1.0) < 0.02, "means over elements")
     try:
         import meshio
@@ -633,6 +634,7 @@ for given in ((1.0,), (1.0, [(0, 0)], 2), "much", (1.0, 2.0)):
 
 # Wrong calls: each parameter of each function with each of these values ends in an exception in words, or in a use that the value allows.
 good_mesh = scarp.box_mesh("quad4", [1.0, 1.0], [2, 2])
+rejected(ValueError, "the nodes are masked", lambda: scarp.Mesh("quad4", np.ma.masked_greater(good_mesh.nodes, 0.6), good_mesh.elements))
 values = [None, -1, 10**9, 0.5, float("nan"), float("inf"), "", "nowhere", b"bytes", [], [None], ["left", 7], {}, object(), np.zeros((3, 3)), np.zeros(0),
           np.ma.masked_invalid([np.nan, 1.0]), lambda *given: None, 1 + 2j]
 calls = {

@@ -6,6 +6,8 @@ import functools
 import json
 import os
 import pathlib
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -200,6 +202,8 @@ def check_study(folder):
 
 
 def check_seeds(folder):
+    (folder / "nothing").mkdir()
+    expect(not scarp.FaultRun(folder / "nothing").within_budget, "a run that is not there is within its error budget")
     run = scarp.fault_rupture(folder / "seeds", seeds=[1, 2], quick=True, throw_over_depth=0.002)
     expect([one.record.options["seed"] for one in run.members] == ["1", "2"] and run.finished, f"{run} {run.members}")
     expect(run.summary.measures.k0.count == 2 and list(run.surface) == ["x_initial", "settlement", "scatter"], f"{list(run.surface)}")
@@ -208,11 +212,26 @@ def check_seeds(folder):
     expect(changed(run.folder / "run.json") == moment, "finished seeds are run again")
 
 
+def check_sand_beside(folder, prepared):
+    """A finished test is not that of a packing whose sand has changed since."""
+    other = folder / "beside"
+    shutil.copytree(prepared.folder, other)
+    packing = other / "packing.packing"
+    angle = [scarp.rve_lab("shear", other, packing=packing, strain=0.01, overwrite=True).summary.largest_friction_angle]
+    sand = packing.with_suffix(".sand")
+    sand.write_text(re.sub(r"(?m)^friction = .*", "friction = 0.1", sand.read_text()))
+    angle.append(scarp.rve_lab("shear", folder / "fresh", packing=packing, strain=0.01).summary.largest_friction_angle)
+    rejected(ValueError, "overwrite", lambda: scarp.rve_lab("shear", other, packing=packing, strain=0.01))
+    angle.append(scarp.rve_lab("shear", other, packing=packing, strain=0.01, overwrite=True).summary.largest_friction_angle)
+    expect(angle[2] == angle[1] < angle[0], f"friction angles {angle} of the sand, of a softer one twice")
+
+
 def check_laboratory(folder):
     by_command(LAB, folder, "prepare", "--grains", "60", "--output", "by_command")
     by_command(LAB, folder, "shear", "--packing", "by_command/packing.packing", "--strain", "0.01", "--output", "by_command")
     prepared = scarp.rve_lab("prepare", folder / "lab", grains=60)
     sheared = scarp.rve_lab("shear", folder / "lab", packing=prepared.packing, strain=0.01)
+    check_sand_beside(folder, prepared)
     same_bytes(folder / "lab", folder / "by_command", "packing.packing", "packing.sand", "path.csv", "end.packing")
     expect(len(prepared.tables["packing_particles"].x) == 60 and abs(sheared.curve.axial_strain[-1] - 0.01) < 1e-6, f"{sheared.curve.axial_strain[-1]}")
     moment = changed(folder / "lab/run_shear.json")

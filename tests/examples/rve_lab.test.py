@@ -217,13 +217,13 @@ def check_other_codes(folder):
     """Discs in the forms of Yade and LAMMPS bring their cell and are the same grains as the table's."""
     disc = ["prepare", "--grains", "60"]
     for code_name in ("yade", "lammps"):
-        code, said = run(*disc, "--format", code_name, "--overwrite", "--output", "made", folder=folder)
+        code, said = run(*disc, "--format", code_name, "--output", code_name, folder=folder)
         expect(code == 0, f"prepare --format {code_name}: ended with {code}\n{said}")
     path = ["--path", "isotropic", "--strain", "2e-4", "--strain-step", "1e-6", "--out", "rows.csv"]
-    cell = (folder / "made/packing_cell.csv").read_text().splitlines()[1]
+    cell = (folder / "yade/packing_cell.csv").read_text().splitlines()[1]
     rows = {}
-    for file, more in (("packing_particles.csv", ["--cell", cell]), ("packing.txt", []), ("packing.data", [])):
-        code, said = run("replay", "--particles", f"made/{file}", *more, *path, folder=folder)
+    for file, more in (("yade/packing_particles.csv", ["--cell", cell]), ("yade/packing.txt", []), ("lammps/packing.data", [])):
+        code, said = run("replay", "--particles", file, *more, *path, folder=folder)
         expect(code == 0, f"replay of {file}: ended with {code}\n{said}")
         expect(("column z is not read" in said) == (not more), f"replay of {file}: z in\n{said}")
         rows[file] = read(folder / "rows.csv")
@@ -234,6 +234,8 @@ def check_other_codes(folder):
     for a, b, most in ((first[0], lammps[0], 1e-9), (first[-1], lammps[-1], 1e-3)):
         apart = abs(a["sxx"] + a["syy"] - b["sxx"] - b["syy"]) / PRESSURE
         expect(apart < most and a["n_contacts"] == b["n_contacts"], f"LAMMPS's file gives another row: {b}, {a}")
+    code, said = run(*disc, "--seed", "2", "--overwrite", "--output", "yade", folder=folder)
+    expect(code == 0 and not (folder / "yade/packing.txt").exists(), f"the file for Yade is that of another packing: {said}")
     code, said = run("prepare", "--shape", "ellipse", "--format", "yade", "--output", "none", folder=folder)
     expect(code > 0 and "--format" in said, f"ellipses for Yade: ended with {code}\n{said}")
 

@@ -43,8 +43,21 @@ def _pairs(facets: Ints) -> Ints:
     return pairs[:, :1] if facets.shape[1] == 2 else pairs
 
 
+def require_unmasked(values: Any, what: str) -> None:
+    """
+    Raises
+    ------
+    ValueError
+        For masked numbers.
+    """
+    rows = values if isinstance(values, (list, tuple)) else [values]
+    if any(isinstance(row, np.ma.MaskedArray) and bool(np.any(row.mask)) for row in rows):
+        raise ValueError(f"{what} are masked (a mask would be lost): fill the masked numbers")
+
+
 def _numbers(values: Any, what: str, shape: Tuple[int, ...], bound: int, bounded: str) -> npt.NDArray[Any]:
     """The values as an array of integers from 0 to bound - 1; a length of -1 in the shape is any."""
+    require_unmasked(values, what)
     found = np.asarray(values)
     asked = "(" + ", ".join("n" if length < 0 else str(length) for length in shape) + (",)" if len(shape) == 1 else ")")
     if found.dtype.kind not in "iu":
@@ -110,6 +123,7 @@ class Mesh:
 
     def __post_init__(self) -> None:
         dim = self.dim
+        require_unmasked(self.nodes, "the nodes")
         try:
             self.nodes = np.asarray(self.nodes, dtype=float)
         except (TypeError, ValueError) as trouble:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _points
 from .materials import MaterialPoints
+from .meshes import require_unmasked
 from .model import Floats
 
 
@@ -48,6 +49,7 @@ class MicroSimulation:
     def solve(self, macro_data: Dict[str, Any], dt: float) -> Dict[str, Any]:
         """macro_data: {"gradient": numbers row by row}; dt: not used, responses are quasi-static"""
         dim = self.dim
+        require_unmasked(macro_data["gradient"], "the gradients")
         gradient = np.asarray(macro_data["gradient"], dtype=float)
         if gradient.size != dim * dim:
             raise ValueError(f"the gradient has {gradient.size} numbers ({dim * dim} are expected): give them row by row")
