@@ -252,8 +252,9 @@ struct LoadStepping {
       if (!(ratio > 1.001) || increment < 2.0 * smallest) return displacement;
       increment = std::max(increment * std::max(1.0 / ratio, 0.3), smallest);
       // What a field lacks at the end of a step is part of its linear system.
-      if constexpr (requires { problem.has_field(); }) {
-        if (problem.has_field() && !session.begin(load, end_of(load, to, increment)).acceptable()) return displacement;
+      if constexpr (requires { session.begins_at_end(); }) {
+        if (session.begins_at_end() && !session.begin(load, end_of(load, to, increment)).acceptable())
+          return displacement;
       }
     }
   }

@@ -72,6 +72,7 @@ class SCARP_EXPORT QuasiNewtonSession {
 
   /// Readies a step between two load factors from the committed state: tangents, factorisation, present imbalance.
   Verdict begin(double from, double to);
+  bool begins_at_end() const { return !repeats_motion_ && problem_.has_field(); }  ///< Whether begin() depends on `to`.
   void describe(StepReport& report) const { linearised_.describe(report); }  ///< Adds what begin() found of the matrix.
   /// First guess of the increment [m] between two load factors: the last step's motion where it is known, and what that
   /// step left unbalanced; else a linear solve.
@@ -91,8 +92,7 @@ class SCARP_EXPORT QuasiNewtonSession {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// How the free degrees of freedom moved in the last accepted load step.
-  struct Motion {
+  struct Motion {                 ///< of the free degrees of freedom in the last accepted load step
     std::vector<double> motion_;  ///< [m], less what the step before had left to it; empty where it is not known
     double growth_ = 0.0;         ///< of the load factor, positive
     SCARP_MEMBERS(motion_, growth_)
