@@ -216,7 +216,7 @@ TEST_CASE("times of a rupture follow the throw, and those without sense are refu
   CHECK(clock(times.end(0.5)) == samples::Approx(2002.0).epsilon(1e-14));
   int knots = 0;
   for (double knot = 0.5; knot < times.end(0.5); knot = clock.next_knot(knot)) ++knots;
-  CHECK(knots == 26);  // four decades from 0.2 s, six a decade, the first, and a minute
+  CHECK(knots == 32);  // five decades from 0.02 s, six a decade, the first, and a minute
   bool has_minute = false;
   for (double knot = 0.5; knot < times.end(0.5); knot = clock.next_knot(knot))
     has_minute = has_minute || clock(knot) == 62.0;

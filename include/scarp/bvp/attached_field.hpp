@@ -152,8 +152,8 @@ struct Attachments {
     if (own && (typeid(*own) != typeid(grid) || own->nodes() != grid.nodes() ||
                 (grid.turns_stresses() && own->positions() != grid.positions())))
       reject(
-          "the field is of other elements, another mesh or other positions than the problem ({} and {} nodes): make it "
-          "of the same grid",
+          "the field is of other elements or another mesh than the problem, or of other positions ({} and {} nodes): "
+          "make it of the same grid",
           own->node_count(), grid.node_count());
     field->require_free(constraints, loads, grid.dof_count() + part_dofs());
   }

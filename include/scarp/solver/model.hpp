@@ -261,7 +261,10 @@ Problem<Dim> Model<Dim>::problem(Executor& executor) const {
   detail::Attachments<dim> attached{nullptr, field_ ? field_() : nullptr};
   Eigen::VectorXd before;
   grid_->internal_force(Eigen::VectorXd::Zero(grid_->dof_count()), points->balanced_stresses(executor), before);
-  if (attached.field) before += attached.field->ground_force();
+  if (attached.field) {
+    Eigen::VectorXd const force = attached.field->ground_force();
+    if (force.size() == before.size()) before += force;  // the problem rejects a field of another mesh
+  }
   LoadHistory loads = later_;
   loads.add(before, TimeFunction({{0.0, 1.0}, {1.0, 0.0}}));
   loads.add(dead_loads(), TimeFunction::ramp(0.0, 1.0));
