@@ -37,7 +37,7 @@ inline std::string table(nlohmann::ordered_json const& json) {
   row("vertical stress against overburden, largest error",
       fmt::format("{:.2f} %", 100.0 * number("vertical_stress_error")), "0");
   row("throw / depth", fmt::format("{:.4f}", number("throw_over_depth")), of_study("0.085"));
-  bool const is_free = !json.contains("footing_width");  // the study's places are those of its free field
+  bool const is_free = !json.contains("footing_width");  // places of the reference study are those of its free field
   row("outcrop_x [m]: steepest line meets the surface", fmt::format("{:.2f}", number("outcrop_x")),
       is_free ? of_study("-12.5 (surface starts to deflect); dip alone -14.4", fault_line) : fault_line);
   row("steepest_x [m]", fmt::format("{:.2f}", number("steepest_x")),
