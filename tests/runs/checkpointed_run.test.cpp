@@ -32,9 +32,11 @@ constexpr char const* scene = "size = 1\nseed = 7\n";
 
 struct LoadLog : scarp::NeverStops {
   scarp::CsvLog log;
+  int lost_after = 1 << 30;  ///< attempts
 
   template <class Problem>
   void attempted(Problem const&, scarp::StepReport const& report) {
+    if (--lost_after == 0) throw scarp::FileError("cannot write 'log.csv'");
     log.add(report.step, report.load, report.residual(), name(report.verdict.reason));
   }
   template <class Self, class Visit>
@@ -60,6 +62,7 @@ struct Ending {
   int die_after = 1 << 30;
   mutable int questions = 1 << 30;  ///< after which it asks to stop, within an attempt or before one
   int full_after = 1 << 30;         ///< the disk
+  int lost_after = 1 << 30;         ///< a row of the log, whose folder is gone
 
   template <class Problem>
   void attempted(Problem const&, scarp::StepReport const&) {
@@ -69,7 +72,7 @@ struct Ending {
   }
   bool wants_stop() const { return stop_after <= 0 || --questions <= 0; }
 
-  SCARP_MEMBERS_EXCEPT((stop_after, die_after, questions, full_after))
+  SCARP_MEMBERS_EXCEPT((stop_after, die_after, questions, full_after, lost_after))
 };
 
 /// Takes a budget's place when there is none.
@@ -112,8 +115,9 @@ Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending e
   Outcome outcome;
   Budget budget;
   if (has_budget) budget.own.emplace(problem, scarp::ErrorBounds{}, scarp::ErrorSampling{.points_per_tracked = 8});
-  scarp::Observers observers(LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}},
-                             std::ref(budget), ending);
+  scarp::Observers observers(
+      LoadLog{{}, {folder / "log.csv", {"step", "load", "residual", "reason"}, start}, ending.lost_after},
+      std::ref(budget), ending);
   scarp::CheckpointedRun run(files, observers, outcome.notes);
   scarp::QuasiNewton<> const solver{.tolerance = 1e-6};
   scarp::LoadStepping const stepping{
@@ -235,6 +239,18 @@ TEST_CASE(
     CHECK(stopped.report.verdict.reason == scarp::Reason::interrupted);
     CHECK(contains(stopped.trouble, "cannot write"));
     CHECK(contains(stopped.trouble, "File too large"));
+    check_same(pull(folder, resumed(folder), {}), undisturbed());
+  }
+}
+
+TEST_CASE("a row that could not be written is written when the run goes on, though a checkpoint had room") {
+  for (int const attempts : {1, 6, 11}) {
+    CAPTURE(attempts);
+    ScratchFolder const folder;
+    scarp::CheckpointSettings const settings{.folder = folder / "states", .every_seconds = 1e9, .every_attempts = 2};
+    auto const stopped = pull(folder, {settings, scene}, {.lost_after = attempts});
+    CHECK(stopped.report.verdict.reason == scarp::Reason::interrupted);
+    CHECK(stopped.trouble == "cannot write 'log.csv'");
     check_same(pull(folder, resumed(folder), {}), undisturbed());
   }
 }

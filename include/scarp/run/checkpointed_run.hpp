@@ -42,10 +42,10 @@ void with_all_states(Problem& problem, Task const& task) {
 /// \endcode
 /// Stages before that of the checkpoint are left out; the problem that it is loaded into is a new one of the same
 /// scene. A checkpoint is made before an attempt when its time has come, where a stage by run() or advance() ends, and
-/// where that stops, for whatever reason: with the last accepted state then. When something cannot be written, by an
-/// observer or of a checkpoint, the run stops there as when it is interrupted, and trouble() returns the message. Where
-/// points are distributed over processes, the first one writes for all and each reads all: another number of processes
-/// may resume.
+/// where that stops: with the last accepted state then. When something cannot be written, by an observer or of a
+/// checkpoint, the run stops there as when it is interrupted, trouble() returns the message, and the checkpoint before
+/// remains: the steps after it are made anew, for all observers. Where points are distributed over processes, the first
+/// one writes for all and each reads all: another number of processes may resume.
 /// \tparam Watched an `ObservesSteps` that is `Described`, such as `Observers`
 template <class Watched, Described Notes>
 class CheckpointedRun {
@@ -131,7 +131,7 @@ class CheckpointedRun {
 
   template <class Problem, class Session>
   void save(Problem& problem, Session const& session, RunState const& state) {
-    if (!files_.saves()) return;
+    if (!files_.saves() || stopped_) return;  // observers have missed the last step
     writing(problem, [&] {
       with_all_states(problem, [&] {
         files_.save([&](StateWriter& writer) {
