@@ -287,6 +287,29 @@ TEST_CASE("softening too steep for the elastic unloading of a point comes to the
   CHECK(trial.stress(5) == samples::Approx(1e3).epsilon(1e-9));
 }
 
+TEST_CASE("softening just below the rate at which a point snaps back finds its strength") {
+  constexpr double modulus = 10e6;
+  constexpr double cohesion = 20e3;
+  for (auto const& [rate, part] : {std::pair{0.9, 1e-3}, {0.94, 1e-3}, {0.99, 1e-1}, {0.9999, 1e-1}}) {
+    double const share = rate;
+    CAPTURE(share);
+    double const fall = cohesion / (share * modulus);
+    scarp::SofteningStrength const strength{{.cohesion = cohesion}, {.cohesion = 0.0}, fall};
+    scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
+        scarp::IsotropicElasticity::from_lame(modulus, modulus), strength};
+    auto const state = clay.initial_state({});
+    auto trial = state;
+    double const sheared = cohesion / modulus + part * fall * (1.0 - share);
+    scarp::Gradient<2> shear = scarp::Gradient<2>::Zero();
+    shear(0, 1) = shear(1, 0) = 0.5 * sheared;
+    REQUIRE(clay.respond(state, shear, trial).verdict.acceptable());
+    // Analytic: G (gamma - kappa) = c - share G kappa; the strain is that of the increment but for the third order.
+    double const strain = 2.0 * scarp::RotatedIncrement<2>(shear).strain(0, 1);
+    double const exact = (strain - cohesion / modulus) / (1.0 - share);
+    CHECK(trial.plastic_shear == samples::Approx(exact).epsilon(1e-8));
+  }
+}
+
 TEST_CASE("an increment to which no strength belongs is refused with a reason") {
   // Tension of 1 kPa is cut off until 1e-4 of plastic shear, then none. Stretched by 2e-3 the ground yields by 2e-3 below the
   // cut-off, so not by so little; without a cut-off its stresses of 26.9 and 11.5 kPa are elastic for a cohesion of 10 kPa.

@@ -151,11 +151,11 @@ struct MohrCoulomb {
     for (int k = 0;; ++k) {
       returned = returned_at(trial, high);
       gap_high = before + shear_of(returned.plastic_strain) - high;
-      if (!returned.found || k == most) return {};
+      if (!returned.found || k == 2 * most) return {};
       if (!(gap_high > 0.0)) break;
       low = high;
       gap_low = gap_high;
-      high += 2.0 * gap_high;
+      high += k < most ? 2.0 * gap_high : high - before;  // the gap is small near the snap-back rate
     }
     for (int k = 0; k < most; ++k) {  // Illinois' variant of the false position
       double const middle = high - gap_high * (high - low) / (gap_high - gap_low);
