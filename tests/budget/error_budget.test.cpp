@@ -51,6 +51,37 @@ struct Relaxing {
 };
 static_assert(scarp::HasPlan<Relaxing>);
 
+/// Constant pressure, but for point 0: it carries nothing, and twice the steps leave a residue of stress or fail.
+struct Loosened {
+  static constexpr int dim = 2;
+  struct State {
+    double pressure = 0.0;
+    int index = 0;
+    SCARP_MEMBERS(pressure, index)
+  };
+  using Plan = int;
+
+  double residue = 0.0;
+  bool fails = false;
+
+  State initial_state(scarp::Site<2> const& site) const { return {site.index == 0 ? 0.0 : 1e5, site.index}; }
+  scarp::VoigtStress<2> stress(State const& state) const { return {-state.pressure, -state.pressure, 0.0}; }
+  scarp::VoigtTangent<2> tangent(State const&) const { return scarp::VoigtTangent<2>::Identity(); }
+  Plan plan(State const&, scarp::Gradient<2> const&) const { return 4; }
+  Plan refined(Plan plan) const { return 2 * plan; }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const& increment, State& trial) const {
+    return respond(committed, increment, trial, 4);
+  }
+  scarp::Response<2> respond(State const& committed, scarp::Gradient<2> const&, State& trial, Plan plan) const {
+    trial = committed;
+    if (trial.index > 0) return {stress(trial), {}};
+    trial.pressure = plan > 4 ? residue : 0.0;
+    if (fails && plan > 4) return {stress(trial), {scarp::Status::failed, scarp::Reason::not_finite}};
+    return {stress(trial), {}};
+  }
+};
+static_assert(scarp::HasPlan<Loosened>);
+
 /// What a budget sees of a problem, without any solver: all points are strained alike.
 class Points {
  public:
@@ -140,6 +171,24 @@ TEST_CASE("points that have lost most of their stress are compared with what the
         samples::Approx(before_last * (twice - once) / start).epsilon(1e-10));
   double const tracked = (start - 1.0) * once * (std::pow(twice, increments - 1) - std::pow(once, increments - 1));
   CHECK(budget.tracked().points[0].apart == samples::Approx(tracked / start).epsilon(1e-10));
+}
+
+TEST_CASE("round-off at a point that carries nothing is no error, and a failed answer is one without end") {
+  scarp::ErrorSampling const sampling{.share = 1.0, .points_per_tracked = 100, .tracked = {0, 7, 30}};
+  Points loose(Loosened{.residue = 1e-8}, 50);
+  scarp::ErrorBudget budget(loose, {}, sampling);
+  for (int k = 0; k < 5; ++k) loose.strain(increment, budget);
+  REQUIRE(budget.tracked().points[0].point == 0);
+  CHECK(scarp::budget_headline(budget.parts()) == "");
+  // A residue of 1e-13 of the largest stress, over a share of 1e-9 of it.
+  CHECK(part(budget.parts(), "accumulated_largest") == samples::Approx(1e-4).epsilon(1e-10));
+  CHECK(part(budget.parts(), "doubling_largest") == samples::Approx(1e-4).epsilon(1e-10));
+  CHECK(part(budget.parts(), "accumulated") < 1e-12);
+
+  Points failing(Loosened{.fails = true}, 50);
+  scarp::ErrorBudget endless(failing, {}, sampling);
+  for (int k = 0; k < 5; ++k) failing.strain(increment, endless);
+  CHECK(std::isinf(part(endless.parts(), "accumulated")));
 }
 
 TEST_CASE("differences of tracked points that cancel are no error of all of them") {

@@ -85,9 +85,10 @@ class ErrorBudget : public NeverStops {
     }
     if (adds_up_work_) balance_.attempted(problem, report);
     packings_.look(problem, seen_);
-    tracked_.follow(problem, at_rest_);
+    auto const least = least_stresses(problem);
+    tracked_.follow(problem, least);
     auto const affordable = static_cast<long>(sampling_.share * static_cast<double>(all_work()));
-    samples_.sample(problem, seen_, at_rest_, sampling_, affordable - tracked_.work);
+    samples_.sample(problem, seen_, least, sampling_, affordable - tracked_.work);
   }
 
   /// Results so far; parts without data are left out.
@@ -164,6 +165,18 @@ class ErrorBudget : public NeverStops {
 
  private:
   static constexpr bool has_grid = requires(Problem const& problem) { problem.grid(); };
+
+  /// [Pa], that each point's stress counts as large as: what it was when the run began, and a round-off share of the
+  /// largest one now, since a point that carries nothing differs by round-off as much as by an error.
+  std::vector<double> least_stresses(Problem const& problem) const {
+    constexpr double round_off = 1e-9;
+    double largest = 0.0;
+    for (int const point : seen_)
+      largest = std::max(largest, stress_size<Problem::dim>(problem.points().committed_stress(point)));
+    auto least = at_rest_;
+    for (double& one : least) one = std::max(one, round_off * largest);
+    return least;
+  }
 
   /// The field is the last of the parts.
   void look_at_field(Problem const& problem, StepReport const& report) {

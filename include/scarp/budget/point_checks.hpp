@@ -89,10 +89,10 @@ struct DoubledSamples {
   /// Samples so far, spread and strained ones.
   std::size_t count() const { return spread.differences.size() + strained.differences.size(); }
 
-  /// After an accepted step. at_rest [Pa]: sizes of all points' stresses when the run began; afforded: work that
-  /// samples may have cost up to now
+  /// After an accepted step. least [Pa]: that each point's stress counts as large as; afforded: work that samples may
+  /// have cost up to now
   template <class Problem>
-  void sample(Problem const& problem, std::vector<int> const& points, std::vector<double> const& at_rest,
+  void sample(Problem const& problem, std::vector<int> const& points, std::vector<double> const& least,
               ErrorSampling const& sampling, long afforded) {
     constexpr int dim = Problem::dim;
     auto const chosen = choose(problem, points, sampling, afforded);
@@ -103,14 +103,14 @@ struct DoubledSamples {
       int const point = chosen[k].point;
       auto const doubled = problem.points().doubled_response(point);
       found[k] =
-          stress_difference(problem.points().committed_stress(point), doubled.response, at_rest[detail::index(point)]);
+          stress_difference(problem.points().committed_stress(point), doubled.response, least[detail::index(point)]);
       works[k] = doubled.work;
     });
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       auto& samples = chosen[k].is_most_strained ? strained : spread;
       auto const stress = problem.points().committed_stress(chosen[k].point);
       samples.differences.push_back(found[k]);
-      samples.carried.push_back(std::max(stress_size<dim>(stress), at_rest[detail::index(chosen[k].point)]));
+      samples.carried.push_back(std::max(stress_size<dim>(stress), least[detail::index(chosen[k].point)]));
       work += works[k];
     }
   }
@@ -197,10 +197,10 @@ struct TrackedPoints {
     return tracked;
   }
 
-  /// After an accepted step, the first of which they begin with. at_rest [Pa]: sizes of all points' stresses when the
-  /// run began
+  /// After an accepted step, the first of which they begin with. least [Pa]: that each point's stress counts as large
+  /// as
   template <class Problem>
-  void follow(Problem const& problem, std::vector<double> const& at_rest) {
+  void follow(Problem const& problem, std::vector<double> const& least) {
     constexpr int dim = Problem::dim;
     std::vector<long> works(points.size());
     std::vector<VoigtStress<dim>> differences(points.size());
@@ -209,12 +209,13 @@ struct TrackedPoints {
       TrackedPoint& one = points[detail::index(task)];
       auto const doubled = problem.points().doubled_path(one.point, one.bits);
       auto const stress = problem.points().committed_stress(one.point);
-      double const least = at_rest[detail::index(one.point)];
-      one.apart = stress_difference(stress, doubled.response, least);
-      differences[detail::index(task)] = std::isfinite(one.apart)
+      double const own_least = least[detail::index(one.point)];
+      one.apart = stress_difference(stress, doubled.response, own_least);
+      bool const has_answer = doubled.response.verdict.status != Status::failed && doubled.response.stress.allFinite();
+      differences[detail::index(task)] = has_answer
                                              ? VoigtStress<dim>(doubled.response.stress - stress)
                                              : VoigtStress<dim>::Constant(std::numeric_limits<double>::infinity());
-      carried[detail::index(task)] = std::max(stress_size<dim>(stress), least);
+      carried[detail::index(task)] = std::max(stress_size<dim>(stress), own_least);
       one.farthest = nan_max(one.farthest, one.apart);
       one.square_sum += one.apart * one.apart;
       works[detail::index(task)] = doubled.work;
