@@ -3,9 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <csignal>
-#include <memory>
+#include <cstdio>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "scarp/run/stop_signal.hpp"
@@ -57,4 +63,51 @@ TEST_CASE("the host's handlers of signals are back after a run, and one that ign
   CHECK((seen.sa_flags & SA_SIGINFO) != 0);
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGHUP, before);
+}
+
+TEST_CASE("runs of two threads that begin and end at any moment have the handlers, and give them back") {
+  auto const is_left = [] {
+    struct sigaction now {};
+    ::sigaction(SIGUSR2, nullptr, &now);
+    return now.sa_handler == SIG_DFL;
+  };
+  REQUIRE(is_left());
+  auto const runs = [&] {
+    int lost = 0;
+    for (int k = 0; k < 50000; ++k) {
+      scarp::StopSignal const run;
+      lost += is_left() ? 1 : 0;
+    }
+    return lost;
+  };
+  int of_other = 0;
+  std::thread other([&] { of_other = runs(); });
+  int const own = runs();
+  other.join();
+  CHECK(own + of_other == 0);
+  CHECK(is_left());
+}
+
+TEST_CASE("what is being written when a signal comes is written whole") {
+  scarp::StopSignal const run;
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  std::FILE* const out = ::fdopen(ends[1], "w");
+  auto const writer = ::pthread_self();
+  std::size_t received = 0;
+  std::thread reader([&] {  // begins to read after the signal, which finds the writer before a full pipe
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ::pthread_kill(writer, SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::array<char, 4096> text{};
+    for (ssize_t count = 0; (count = ::read(ends[0], text.data(), text.size())) > 0;)
+      received += static_cast<std::size_t>(count);
+  });
+  std::string const table(1 << 16, 'x');  // as much as a pipe holds
+  for (int k = 0; k < 2; ++k) CHECK((std::fputs(table.c_str(), out) >= 0 && std::fflush(out) == 0));
+  std::fclose(out);
+  reader.join();
+  ::close(ends[0]);
+  CHECK(received == 2 * table.size());
+  CHECK(run.wants_stop());
 }
