@@ -2,7 +2,9 @@
 #include "scarp/run/run_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <map>
 
 #include "support/files.hpp"
@@ -58,6 +60,27 @@ std::string refusal(ScratchFolder const& folder, Action const& action) {
   return said;
 }
 
+/// Writing beyond so many bytes of a file fails, as on a full disk, as long as it lives.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : before_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &limit_);
+    auto small = limit_;
+    small.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  FullDisk(FullDisk const&) = delete;
+  FullDisk& operator=(FullDisk const&) = delete;
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &limit_);
+    std::signal(SIGXFSZ, before_);
+  }
+
+ private:
+  void (*before_)(int);
+  rlimit limit_{};
+};
+
 }  // namespace
 
 TEST_CASE("a record is read as it was written, also by a program that knows other members") {
@@ -74,6 +97,12 @@ TEST_CASE("a record is read as it was written, also by a program that knows othe
       scarp::RunRecord::from(R"({"extra": {"state": "no"}, "number": 1.5, "identity": "x","state":"running"})");
   CHECK(later.identity == "x");
   CHECK(later.state == "running");
+  auto const nested = scarp::RunRecord::from(
+      R"({"identity": "x", "state": "running", "build": {"git": {"commit": "1"}, "compiler": "g++"},
+          "later": {"deep": {"x": "1"}, "identity": "y", "state": "finished"}, "list": [{"state": "no"}, ["state", "no"]]})");
+  CHECK(nested.identity == "x");
+  CHECK(nested.state == "running");
+  CHECK(nested.build == scarp::RunRecord::Lines{{"compiler", "g++"}});
   for (char const* text : {"", "{}", "{\"identity\": \"x\"}", "{\"identity", "\"\\u00"})
     CHECK_REFUSED(scarp::RunRecord::from(text), "record");
 }
@@ -205,4 +234,40 @@ TEST_CASE("two programs do not save into one folder of checkpoints") {
   ScratchFolder const folder;
   auto const one = files(folder, "states", true);
   CHECK(contains(refusal(folder, [&] { files(folder, "states", true); }), "is in use (process "));
+}
+
+TEST_CASE("a run that was killed before its first checkpoint starts afresh whatever the bytes of its scene") {
+  ScratchFolder const folder;
+  constexpr char const* latin =
+      "mesh = b\xf6"
+      "den.msh\n";
+  run(folder, "out", files(folder, "states", true, latin), false);
+  CHECK_FALSE(run(folder, "out", files(folder, "states", true, latin), true, "finished").empty());
+}
+
+TEST_CASE("a record that has no room on a full disk stays as it was") {
+  ScratchFolder const folder;
+  RunFolder own({.folder = folder / "out"}, record());
+  own.begin();
+  auto const before = content(folder / "out/run.json");
+  {
+    FullDisk const full(before.size());
+    CHECK_THROWS_AS(own.end(std::string(400, 'x')), scarp::FileError);
+  }
+  CHECK(content(folder / "out/run.json") == before);
+  CHECK(own.record().state == "running");
+  own.end("finished");
+  CHECK(scarp::RunRecord::from(content(folder / "out/run.json")).has_finished());
+}
+
+TEST_CASE("a run whose record could not be written begins when there is room") {
+  ScratchFolder const folder;
+  RunFolder own({.folder = folder / "out"}, record());
+  {
+    FullDisk const full(8);
+    CHECK_THROWS_AS(own.begin(), scarp::FileError);
+  }
+  CHECK(own.record().state.empty());
+  own.begin();
+  CHECK(scarp::RunRecord::from(content(folder / "out/run.json")).state == "running");
 }

@@ -43,7 +43,7 @@ class RunFolder {
     record_.identity = fmt::format("{}-{:08x}{:08x}", record_.started, random(), random());
     if (files != nullptr && files->saves()) {
       record_.checkpoint = absolute(files->settings().folder);
-      record_.scene = files->scene();
+      record_.scene = valid_utf8(files->scene());  // as the record has it
     }
     auto const before = present();
     if (files != nullptr && files->resumes()) {
@@ -139,18 +139,28 @@ class RunFolder {
   }
 
   void write(std::string state) {
-    record_.state = std::move(state);
-    record_.changed = time_stamp();
+    RunRecord changed = record_;
+    changed.state = std::move(state);
+    changed.changed = time_stamp();
     auto const file = settings_.folder / settings_.record;
     try {
-      write_file(file, record_.text());
+      write_file(file, changed.text());
     } catch (FileError const&) {
-      if (!write_in_place(file, record_.text())) throw;
+      if (!write_in_place(file, changed.text())) throw;
     }
+    record_ = std::move(changed);
   }
 
-  /// On a full disk: the blocks that the file has are there still.
+  /// On a full disk: the blocks that the file has are there still. Where they are too few, the file stays as it was.
   static bool write_in_place(std::filesystem::path const& path, std::string const& text) {
+    if (std::error_code none; !std::filesystem::exists(path, none)) return false;
+    std::string const before = read_file(path);
+    bool const written = replaced(path, text);
+    if (!written) replaced(path, before);
+    return written;
+  }
+
+  static bool replaced(std::filesystem::path const& path, std::string const& text) {
     std::error_code trouble;
     detail::OpenFile const file(std::fopen(path.string().c_str(), "r+b"));
     bool const written =

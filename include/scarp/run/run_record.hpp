@@ -50,22 +50,24 @@ struct RunRecord {
   /// \throws InputError for a text that no record has
   static RunRecord from(std::string_view text) {
     RunRecord record;
-    Lines* block = nullptr;
     Lines unknown;
+    Lines* block = &unknown;
+    int depth = 0;  // of objects and arrays, which later programs may nest
     std::optional<std::string> name;
     while (!text.empty()) {
       if (text.front() != '"') {
-        if (text.front() == '{') block = name ? record.lines(*name, unknown) : nullptr;
-        if (text.front() == '}') block = nullptr;
-        if (text.front() == '{' || text.front() == ',') name.reset();
+        bool const opens = text.front() == '{' || text.front() == '[';
+        if (opens && ++depth == 2) block = name && text.front() == '{' ? record.lines(*name, unknown) : &unknown;
+        if (text.front() == '}' || text.front() == ']') --depth;
+        if (opens || text.front() == ',') name.reset();
         text.remove_prefix(1);
         continue;
       }
       std::string found = take_json_string(text);
       if (!name) {
         name = std::move(found);
-      } else if (block != nullptr) {
-        block->emplace_back(*name, std::move(found));
+      } else if (depth != 1) {
+        (depth == 2 ? block : &unknown)->emplace_back(*name, std::move(found));
       } else {
         members(record, [&]<class Value>(std::string_view member, Value& value) {
           if constexpr (std::same_as<Value, std::string>)
