@@ -31,7 +31,8 @@ class Progress : public NeverStops {
     double const elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     if (report.verdict.acceptable()) {
       double const left = std::max(to_ - report.load, 0.0);
-      double const remaining = report.load > 0.0 ? elapsed * left / (report.load - from_) : 0.0;
+      double const done = report.load - from_;  // none where the ground settles at a load
+      double const remaining = report.load > 0.0 && done > 0.0 ? elapsed * left / done : 0.0;
       print("{}step {:4}  {} {:.5f}  residual {:.2e}  iterations {:2}  elapsed {:6.1f} s  remaining {:6.1f} s\n", name_,
             report.step, measure_.name, measure_.of(report.load), report.residual(), report.iterations(), elapsed,
             remaining);
