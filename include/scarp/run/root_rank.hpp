@@ -88,6 +88,11 @@ class OnRootRank {
   static void members(Self& self, Visit&& visit) requires Described<Observers> {
     if (self.observers_) Observers::members(*self.observers_, visit);
   }
+  /// Of the observers, where they have something to do then.
+  void after_loading() requires requires(Observers& observers) { observers.after_loading(); }
+  {
+    if (observers_) observers_->after_loading();
+  }
 
  private:
   Executor const& executor_;
