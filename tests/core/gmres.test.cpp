@@ -61,3 +61,32 @@ TEST_CASE("GMRES takes one product with the inverse as preconditioner, none for 
   CHECK(scarp::gmres(shift, same, Eigen::VectorXd::Unit(100, 0)).norm() < 1e-12);
   CHECK(products <= 1 + 300 + 4);  // and one at each restart
 }
+
+TEST_CASE(
+    "GMRES of a singular matrix is a number: the solution where there is one, else what is nearest among directions") {
+  auto const zero = [](Eigen::VectorXd const& x) { return Eigen::VectorXd(0.0 * x); };
+  CHECK(scarp::gmres(zero, same, Eigen::VectorXd::Ones(3)).isZero(0.0));
+  auto const flat = [](Eigen::VectorXd const& x) {
+    Eigen::VectorXd forces = 2.0 * x;
+    forces(2) = 0.0;
+    return forces;
+  };
+  CHECK((scarp::gmres(flat, same, Eigen::Vector3d(1.0, 1.0, 0.0)) - Eigen::Vector3d(0.5, 0.5, 0.0)).norm() < 1e-15);
+  CHECK(scarp::gmres(flat, same, Eigen::VectorXd::Unit(3, 2)).isZero(0.0));
+  CHECK((flat(scarp::gmres(flat, same, Eigen::VectorXd::Ones(3))) - Eigen::Vector3d(1.0, 1.0, 0.0)).norm() < 1e-14);
+  // Free ends: a row of springs, whose forces balance.
+  auto const row = [](Eigen::VectorXd const& x) {
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(x.size());
+    for (Eigen::Index k = 0; k + 1 < x.size(); ++k) {
+      forces(k) += x(k) - x(k + 1);
+      forces(k + 1) -= x(k) - x(k + 1);
+    }
+    return forces;
+  };
+  Eigen::VectorXd pulled = Eigen::VectorXd::Zero(12);
+  pulled(0) = -1.0;
+  pulled(11) = 1.0;
+  CHECK(residual(row, pulled) < 1e-4);
+  pulled(5) = 0.5;
+  CHECK(scarp::gmres(row, same, pulled).norm() < 1e3);
+}

@@ -15,7 +15,7 @@ namespace scarp {
 
 /// Restarted GMRES (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856) with Householder's reflections
 /// (H. F. Walker, SIAM J. Sci. Stat. Comput. 9 (1988) 152), a LinearIteration. It ends at 1e-4 of the preconditioned
-/// residual or after 300 products.
+/// residual or after 300 products, or where a singular matrix has no further direction.
 SCARP_EXPORT Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const& preconditioner,
                                    Eigen::VectorXd const& right);
 
@@ -26,6 +26,7 @@ SCARP_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const
   constexpr double accuracy = 1e-4;  // of the preconditioned residual
   constexpr Eigen::Index directions = 60;
   constexpr int max_products = 300;
+  constexpr double round_off = 1e-14;  // of a product: what is new in it
   Eigen::Index const size = right.size();
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(size);
   Eigen::VectorXd vector = preconditioner(right);  // the residual, then each direction
@@ -70,6 +71,10 @@ SCARP_DEFINITIONS Eigen::VectorXd gmres(LinearMap const& matrix, LinearMap const
       }
       columns.col(k - 1).head(k) = vector.head(k);
       done = k == size || std::abs(shares(k)) / first_norm < accuracy || ++products == max_products;
+      if (std::abs(vector(k - 1)) <= round_off * vector.head(k).norm()) {
+        --k;
+        done = true;
+      }
     }
     Eigen::VectorXd among = shares.head(k);
     columns.topLeftCorner(k, k).triangularView<Eigen::Upper>().solveInPlace(among);
