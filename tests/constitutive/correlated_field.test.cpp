@@ -105,3 +105,9 @@ TEST_CASE("fields without length or waves are refused") {
   CHECK_REFUSED(Field({.lengths = {1.0, 0.0}}), "length", "is 0");
   CHECK_REFUSED(Field({.waves = 0}), "waves", "0");
 }
+
+TEST_CASE("a lognormal quantity without a positive mean, or with a negative variation, is refused") {
+  CHECK_REFUSED(scarp::Lognormal{.mean = -1.0}.of(0.5), "mean of a lognormal quantity");
+  CHECK_REFUSED((scarp::Lognormal{.mean = 1.0, .variation = -0.3}.of(0.5)), "variation of a lognormal quantity");
+  CHECK_REFUSED((scarp::Lognormal{.mean = 1.0, .variation = std::nan("")}.of(0.5)), "variation", "is nan");
+}

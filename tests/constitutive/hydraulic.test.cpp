@@ -49,4 +49,5 @@ TEST_CASE("properties of the pore water and the flow are rejected by name") {
   CHECK_REFUSED(scarp::KozenyCarman{}.validate(), "grain diameter");
   CHECK_REFUSED((scarp::KozenyCarman{.grain = 1e-4, .factor = 0.0}.validate()), "factor of a permeability");
   CHECK_REFUSED((scarp::KozenyCarman{.grain = 1e-4, .water = {.viscosity = 0.0}}.validate()), "viscosity");
+  CHECK_REFUSED(scarp::KozenyCarman::of_conductivity(1e-4, 0.6, {.viscosity = -1e-3}), "viscosity");
 }

@@ -8,13 +8,16 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "scarp/run/stop_signal.hpp"
+#include "support/refusals.hpp"
 
 TEST_CASE("a time limit counts from the moment that it is told, such as the start of a program") {
   auto const now = std::chrono::steady_clock::now();
@@ -22,6 +25,12 @@ TEST_CASE("a time limit counts from the moment that it is told, such as the star
   CHECK_FALSE(scarp::TimeLimit(1e6, now - std::chrono::seconds(9)).wants_stop());
   CHECK_FALSE(scarp::TimeLimit(5.0).wants_stop());
   CHECK_FALSE(scarp::TimeLimit(0.0, now - std::chrono::seconds(9)).wants_stop());
+}
+
+TEST_CASE("a time limit that is negative or no number is refused") {
+  CHECK_REFUSED(scarp::TimeLimit(-5.0), "time limit is -5");
+  CHECK_REFUSED(scarp::TimeLimit(std::nan("")), "time limit is nan");
+  CHECK_FALSE(scarp::TimeLimit(std::numeric_limits<double>::infinity()).wants_stop());
 }
 
 static_assert(scarp::Described<scarp::StopSignal>, "a checkpointed run takes it among its observers");

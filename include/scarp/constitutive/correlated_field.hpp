@@ -74,9 +74,17 @@ struct Lognormal {
   double mean = 1.0;       ///< m, positive, in the unit of the quantity
   double variation = 0.0;  ///< standard deviation over mean
 
+  /// \throws InputError for a mean that is not positive and a variation that is negative
+  void validate() const {
+    require_positive("mean of a lognormal quantity", mean);
+    require_not_negative("variation of a lognormal quantity", variation);
+  }
+
   /// Value that belongs to a standard normal number.
   /// \f$ m\,e^{s z - s^2/2},\; s^2 = \ln(1 + v^2) \f$
+  /// \throws InputError as validate() does
   double of(double normal) const {
+    validate();
     double const variance = std::log1p(variation * variation);
     return mean * std::exp(std::sqrt(variance) * normal - variance / 2.0);
   }

@@ -63,8 +63,9 @@ struct KozenyCarman {
   Water water{};          ///< in the pores
 
   /// Grains that pass so much water [m/s] at a void ratio.
-  /// \throws InputError for numbers that are not positive
+  /// \throws InputError for numbers that are not positive, also of the water
   static KozenyCarman of_conductivity(double conductivity, double void_ratio, Water const& water = {}) {
+    water.validate();
     require_positive("hydraulic conductivity", conductivity);
     require_positive("void ratio of the ground with pore water", void_ratio);
     KozenyCarman flow{.grain = 1.0, .water = water};

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "scarp/core/described.hpp"
+#include "scarp/core/error.hpp"
 #include "scarp/solver/step_report.hpp"
 
 namespace scarp {
@@ -13,9 +14,9 @@ class TimeLimit {
  public:
   using Moment = std::chrono::steady_clock::time_point;  ///< monotonic, so that changes of the clock have no effect
 
-  /// started: when the time began to count, for instance before the scene was prepared
+  /// \throws InputError for a negative or NaN limit. started: when the time began to count, for instance before the scene was prepared
   explicit TimeLimit(double seconds, Moment started = std::chrono::steady_clock::now())
-      : seconds_(seconds), started_(started) {}
+      : seconds_(require_at_least("time limit", seconds, 0.0)), started_(started) {}
 
   template <class Problem>
   void attempted(Problem const&, StepReport const&) {}  ///< Records nothing.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
@@ -56,6 +57,7 @@ double largest_principal(Tensor<Dim> const& symmetric) {
   static_assert(Dim == 2 || Dim == 3);
   double const mean = symmetric.trace() / Dim;
   if constexpr (Dim == 2) {
+    if (symmetric.hasNaN()) return std::numeric_limits<double>::quiet_NaN();  // which std::hypot leaves out by infinity
     return std::abs(mean) + std::hypot((symmetric(0, 0) - symmetric(1, 1)) / 2.0, symmetric(0, 1));
   } else {
     Tensor<3> const deviator = symmetric - mean * Tensor<3>::Identity();
