@@ -116,6 +116,7 @@ TEST_CASE("a series takes the states at its loads although these are sums of ste
   scarp::LoadSchedule sums{1.0, 50};
   double load = 0.0;
   for (int step = 0; step <= 50; ++step, load += 0.02) CHECK(sums.takes(load));
+  CHECK_FALSE(sums.takes(std::nan("")));
   scarp::LoadSchedule coarse{1.0, 2};
   CHECK(coarse.takes(0.0));
   CHECK(coarse.takes(0.7));

@@ -40,7 +40,7 @@ class Random {
   /// Uniform in [0, 1) with 53 random bits.
   double uniform() { return static_cast<double>(next() >> 11U) * 0x1.0p-53; }
 
-  /// Uniform in [low, high).
+  /// Uniform in [low, high); rounding may give high itself unless low is 0.
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
  private:

@@ -104,7 +104,7 @@ struct LoadSchedule {
   bool takes(double load) {
     constexpr double round_off = 1e-9;  // of loads that are sums of steps
     bool const reaches_end = load >= to && last < to;
-    if (load <= last || (load < next && !reaches_end)) return false;
+    if (!(load > last) || (load < next && !reaches_end)) return false;
     next = to / count * (std::floor(load / to * count + round_off) + 1.0 - round_off);
     last = load;
     return true;
