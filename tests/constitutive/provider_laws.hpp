@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scarp/constitutive/constitutive_provider.hpp"
+#include "scarp/tensor/voigt.hpp"
 
 /// Laws that every constitutive provider obeys. A provider takes part by specialising `Sample` and being named in the
 /// list of provider_laws.test.cpp.
@@ -170,16 +171,6 @@ void a_closed_cycle_of_strain_gives_no_energy() {
   CHECK(work_along<Provider>({origin, second, both, first, origin}, steps) >= -area);
 }
 
-/// Symmetric gradient of one engineering strain component.
-template <int Dim>
-Gradient<Dim> unit_strain(int component) {
-  auto const [i, j] = scarp::voigt_indices<Dim>()[static_cast<std::size_t>(component)];
-  Gradient<Dim> gradient = Gradient<Dim>::Zero();
-  gradient(i, j) += 0.5;
-  gradient(j, i) += 0.5;
-  return gradient;
-}
-
 /// Elastic providers: central differences of the stress, corrected for the rotation-free increment's own terms, are the
 /// tangent's columns. Others: along every strain the measured stiffness is positive and not above the tangent's.
 template <class Provider>
@@ -191,8 +182,8 @@ void the_tangent_is_the_derivative_or_bounds_it() {
   double const step = Sample<Provider>::elastic ? 1e-5 : 1e-6;
   for (int k = 0; k < scarp::voigt_size<dim>; ++k) {
     auto trial = committed;
-    VoigtStress<dim> const up = provider.respond(committed, step * unit_strain<dim>(k), trial).stress;
-    VoigtStress<dim> const down = provider.respond(committed, -step * unit_strain<dim>(k), trial).stress;
+    VoigtStress<dim> const up = provider.respond(committed, step * scarp::unit_strain<dim>(k), trial).stress;
+    VoigtStress<dim> const down = provider.respond(committed, -step * scarp::unit_strain<dim>(k), trial).stress;
     VoigtStress<dim> const measured = (up - down) / (2.0 * step);
     if constexpr (Sample<Provider>::elastic) {
       // Truncation step^2 = 1e-10, round-off 1e-16/step = 1e-11, relative to the stiffness.

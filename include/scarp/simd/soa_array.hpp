@@ -48,7 +48,7 @@ class SoaArray {
   void resize(std::size_t rows, Scalar fill = Scalar(0)) {
     rows_ = rows;
     stride_ = (rows + padding - 1) / padding * padding;
-    if constexpr (Count > 0) values_.assign(stride_ * Count, fill);
+    values_.assign(stride_ * Count, fill);
   }
 
   std::size_t rows() const { return rows_; }           ///< Rows without the padding.
