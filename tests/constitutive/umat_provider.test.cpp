@@ -335,6 +335,14 @@ TEST_CASE("a UMAT without a tangent, and one that reads beyond its arrays, are r
   }
 }
 
+TEST_CASE("of a name that CMNAME cannot hold a UMAT gets the beginning where another provider made the state") {
+  auto umat = odd(6.0);
+  auto const state = umat.initial_state({});
+  umat.name.resize(10'000, ' ');
+  auto trial = state;
+  CHECK(umat.respond(state, scarp::Gradient<2>::Identity() * 1e-3, trial).stress(0) == 1.0);
+}
+
 TEST_CASE("a provider without a UMAT, with a name that CMNAME cannot hold, or without time, is rejected") {
   CHECK_REFUSED(scarp::UmatProvider<2>{}.initial_state({}), "no UMAT");
   CHECK_REFUSED((scarp::UmatProvider<2>{.umat = umats::odd, .name = std::string(81, 'a')}.initial_state({})),

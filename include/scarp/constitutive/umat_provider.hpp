@@ -233,7 +233,8 @@ struct UmatProvider {
     double pnewdt = 1.0, celent = state.place.size, dtime = time_step;
     std::array<char, name_length> cmname;
     cmname.fill(' ');
-    std::ranges::transform(name, cmname.begin(), [](char letter) {
+    auto const letters = std::string_view(name).substr(0, name_length);  // of a state that another name has made
+    std::ranges::transform(letters, cmname.begin(), [](char letter) {
       return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
     });
     int ndi = 3, nshr = components - 3, ntens = components, nstatv = detail::count(state.variables);
