@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/files.hpp"
+#include "support/refusals.hpp"
 
 namespace {
 
@@ -100,6 +101,13 @@ TEST_CASE("every iteration and every attempt is a line of JSON beside the table"
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // header and three iterations
   CHECK(table.find(",dem_steps,seconds,seconds_in_points,largest_gradient\n") != std::string::npos);
   CHECK(table.find(",64,2,1.5,0.01\n") != std::string::npos);  // in the words of the lines
+}
+
+TEST_CASE("a table that could share its second file with another one is refused before a file is made") {
+  ScratchFolder const folder;
+  for (char const* name : {"log.txt", "log.jsonl", "log"})
+    CHECK_REFUSED(scarp::ConvergenceLog(folder / name, {}), "does not end in .csv", "name it .csv");
+  CHECK(folder.file_count() == 0);
 }
 
 TEST_CASE("a resumed log goes on in both files, and a new one replaces both") {

@@ -19,8 +19,7 @@ namespace scarp {
 /// residual over that of the iteration before; times are wall time [s].
 class ConvergenceLog : public NeverStops {
  public:
-  /// \throws FileError when a file cannot be written, InputError for a table that ends in .jsonl, as the second file
-  /// does
+  /// \throws FileError when a file cannot be written, InputError for a table that does not end in .csv
   ConvergenceLog(std::filesystem::path const& file, LoadMeasure measure, CsvStart start = CsvStart::anew)
       : measure_(detail::validated(std::move(measure))),
         table_(table_file(file),
@@ -52,8 +51,11 @@ class ConvergenceLog : public NeverStops {
 
  private:
   static std::filesystem::path const& table_file(std::filesystem::path const& file) {
-    if (file.extension() == ".jsonl")
-      reject("the table '{}' ends in .jsonl (as the second file, which would replace it): name it .csv", file.string());
+    if (file.extension() != ".csv")
+      reject(
+          "the table '{}' does not end in .csv (its name with .jsonl is the second file's, which no other log may "
+          "have): name it .csv",
+          file.string());
     return file;
   }
 
