@@ -78,4 +78,9 @@ TEST_CASE("the least limit of the process's groups counts, of both versions of c
   write("memory/memory.usage_in_bytes", "3000\n");
   write("memory/memory.stat", "inactive_file 1\ntotal_inactive_file 100\n");
   CHECK(left() == 4100.0);
+  write("job/memory.stat", "anon 5\n");
+  write("memory/memory.limit_in_bytes", "99000\n");
+  CHECK(left() == 6000.0);  // of a kernel that does not tell the cache
+  std::filesystem::remove(folder / "job/memory.current");
+  CHECK(left() == 9000.0);
 }

@@ -9,7 +9,8 @@
 namespace scarp {
 
 namespace detail {
-/// visit(volume, points, k) for every point of the committed state: its volume [m3] and its number among `points`.
+/// visit(volume, points, k) for every point of the committed state: its volume [m2], in 3D [m3], and its number among
+/// `points`.
 template <class Problem, class Visit>
 void for_each_volume(Problem const& problem, Visit const& visit) {
   auto const& grid = problem.grid();
