@@ -151,6 +151,29 @@ Outcome const& undisturbed() {
   return made;
 }
 
+/// One of two processes, which has every other point.
+struct EvenPoints : scarp::SerialExecutor {
+  bool owns(int point) const override { return point % 2 == 0; }
+  std::string fetch(int) const override { return {}; }
+};
+
+/// Points that know only whether they have a state here.
+struct SharedOut {
+  struct Points {
+    std::vector<bool> present{true, false, true, false};
+    int size() const { return static_cast<int>(present.size()); }
+    void release(int point) { present[static_cast<std::size_t>(point)] = false; }
+    void unpack(int point, std::string const&) { present[static_cast<std::size_t>(point)] = true; }
+    static std::string pack(int) { return {}; }
+  };
+  Points all{};
+  EvenPoints ranks{};
+
+  Points& points() { return all; }
+  Points const& points() const { return all; }
+  EvenPoints const& executor() const { return ranks; }
+};
+
 /// Wall times aside.
 void check_same(Outcome const& outcome, Outcome const& expected) {
   CHECK(outcome.report.verdict == expected.report.verdict);
@@ -324,6 +347,16 @@ TEST_CASE("a checkpoint is refused by a scene of another size and by one whose t
   std::filesystem::remove(folder / "log.csv");
   CHECK_THROWS_WITH_AS(pull(folder, resumed(folder), {}), doctest::Contains("log.csv' has 0 bytes"), CheckpointError);
   CHECK_FALSE(std::filesystem::exists(folder / "log.csv"));
+}
+
+TEST_CASE("states of other processes are let go again, also where a checkpoint cannot be written") {
+  SharedOut problem;
+  std::vector<bool> const own = problem.all.present;
+  scarp::with_all_states(problem, [&] { CHECK(problem.all.present == std::vector<bool>(4, true)); });
+  CHECK(problem.all.present == own);
+  CHECK_THROWS_AS(scarp::with_all_states(problem, [] { throw scarp::FileError("the disk is full"); }),
+                  scarp::FileError);
+  CHECK(problem.all.present == own);
 }
 
 TEST_CASE("a stage with two paths of the load factor is refused before it has done harm") {

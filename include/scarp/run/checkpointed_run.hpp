@@ -18,15 +18,20 @@ void keep_own_states(Problem& problem) {
   }
 }
 
-/// Runs a task on the root rank, where all points have their committed states as long as it lasts; the other ranks send
-/// theirs.
+/// Runs a task on the root rank, where all points have their committed states as long as it lasts, whatever it
+/// throws; the other ranks send theirs.
 template <class Problem, class Task>
 void with_all_states(Problem& problem, Task const& task) {
   on_root_rank(problem, [&] {
-    for (int point = 0; point < problem.points().size(); ++point) {
-      if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().fetch(point));
+    try {
+      for (int point = 0; point < problem.points().size(); ++point) {
+        if (!problem.executor().owns(point)) problem.points().unpack(point, problem.executor().fetch(point));
+      }
+      task();
+    } catch (...) {
+      keep_own_states(problem);
+      throw;
     }
-    task();
     keep_own_states(problem);
   });
 }
