@@ -54,7 +54,7 @@ namespace detail {
 /// Memory [bytes] that the control groups of a process leave; see `least_of_groups`.
 inline double group_memory(std::string const& groups, std::string const& mounted) {
   return least_of_groups(groups, mounted, "memory", [](auto const& file, bool is_second) {
-    auto const present = [](double bytes) { return std::isfinite(bytes) ? bytes : 0.0; };  // not all kernels tell all
+    auto const present = [](double bytes) { return std::isfinite(bytes) ? bytes : 0.0; };  // not all kernels report all
     double const used = present(kernel_number(file(is_second ? "memory.current" : "memory.usage_in_bytes")));
     // The memory that caches the group's files can be freed.
     char const* const cache = is_second ? "inactive_file" : "total_inactive_file";

@@ -40,7 +40,7 @@ class StopHandlers {
       stop_requested = true;
       std::signal(number, number == SIGPIPE ? SIG_IGN : SIG_DFL);
     };
-    action.sa_flags = SA_RESTART;  // a table that is being written goes on
+    action.sa_flags = SA_RESTART;  // else a table that is being written loses a part
     for (std::size_t k = 0; k < signals.size(); ++k) {
       ::sigaction(signals[k], nullptr, &before[k]);
       bool const is_left = signals[k] == SIGHUP && before[k].sa_handler == SIG_IGN;
@@ -63,8 +63,8 @@ class StopHandlers {
 /// Ends a run when the process gets SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is gone, unless started by nohup),
 /// SIGPIPE (nobody reads its output any more), or SIGUSR1, SIGUSR2 and SIGXCPU (a batch system is about to end it). A
 /// second signal of the same kind ends it at once, but for SIGPIPE; one of another kind does not, since batch systems
-/// send several. System calls that a signal has interrupted go on. When the last of these objects is gone, the handlers
-/// are those from before it, and the signal is forgotten.
+/// send several. System calls that a signal has interrupted continue. When the last of these objects is gone, the
+/// handlers are those from before it, and the signal is forgotten.
 class StopSignal {
  public:
   template <class Problem>

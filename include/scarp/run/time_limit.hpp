@@ -14,7 +14,8 @@ class TimeLimit {
  public:
   using Moment = std::chrono::steady_clock::time_point;  ///< monotonic, so that changes of the clock have no effect
 
-  /// \throws InputError for a negative or NaN limit. started: when the time began to count, for instance before the scene was prepared
+  /// started: when the time began to count, for instance before the scene was prepared
+  /// \throws InputError for a limit that is negative or NaN
   explicit TimeLimit(double seconds, Moment started = std::chrono::steady_clock::now())
       : seconds_(require_at_least("time limit", seconds, 0.0)), started_(started) {}
 

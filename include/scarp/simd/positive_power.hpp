@@ -180,9 +180,9 @@ template <class Scalar, std::size_t Width, std::size_t Count>
 
 }  // namespace detail
 
-/// base^exponent of positive normal numbers, all lanes at once; of other bases, not-a-number too, any number. The relative error is below 5e-16 (1 + |ln result|) in
-/// double, 3e-7 (1 + |ln result|) in float; results below 2^-1021 or above 2^1021 become these (2^-125, 2^125 in
-/// float). Two packs side by side cost little more than one.
+/// base^exponent of positive normal numbers, all lanes at once; of other bases, not-a-number too, any number. The
+/// relative error is below 5e-16 (1 + |ln result|) in double, 3e-7 (1 + |ln result|) in float; results below 2^-1021 or
+/// above 2^1021 become these (2^-125, 2^125 in float). Two packs side by side cost little more than one.
 template <class Scalar, std::size_t Width, std::size_t Count>
 [[gnu::always_inline]] inline std::array<BasicPack<Scalar, Width>, Count> positive_powers(
     std::array<BasicPack<Scalar, Width>, Count> const& base,
