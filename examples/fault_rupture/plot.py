@@ -188,7 +188,7 @@ def surface(folder):
     colours = plt.get_cmap("viridis_r")(np.linspace(0.15, 1.0, len(profiles)))
     lines = []
     for colour, (throw, x, settlement) in zip(colours, profiles):
-        lines += upper.plot(x, settlement / depth, ".-", color=colour, markersize=3, label=f"h/H = {throw:.3g}")
+        lines += upper.plot(x, settlement / depth, ".-", color=colour, markersize=3, label=f"h/H = {throw:.3g}{water_figures.drainage(folder, throw)}")
         lower.plot(x, settlement / (throw * depth), ".-", color=colour, markersize=3)
     marks = outcrop_marks(lower, summary) + footing_figures.draw_extent(lower, summary)
     outcrop_marks(upper, summary)

@@ -21,6 +21,11 @@ def end_of_throw(folder):
     return figures.read_csv(folder / "water.csv", ["throw_over_depth"])["throw_over_depth"][-1]
 
 
+def drainage(folder, time):
+    """What a step after the end of the throw is told by, behind h/H."""
+    return " and drainage" if has_begun(folder) and time > end_of_throw(folder) * (1.0 + 1e-6) else ""
+
+
 def pressures(folder):
     """Excess pore pressure of the elements over the run, an animation."""
     throw = end_of_throw(folder)
@@ -47,9 +52,8 @@ def excess_pressure(folder):
         mesh = Triangulation(*grid.points.T, triangles_of(grid))
         filled = axes.tricontourf(mesh, pressure, levels=np.linspace(-most, most, 15), cmap="RdBu", norm=Normalize(-most, most))
         axes.add_collection(LineCollection(outline(grid), colors=GREY, linewidths=0.6))
-        rested = " and drainage" if time > throw * (1.0 + 1e-6) else ""
         axes.set(ylabel="y [m]", aspect="equal",
-                 title=f"Excess pore pressure, h/H = {min(time, throw):.3g}{rested}: {pressure.min():.3g} to {pressure.max():.3g} kPa")
+                 title=f"Excess pore pressure, h/H = {min(time, throw):.3g}{drainage(folder, time)}: {pressure.min():.3g} to {pressure.max():.3g} kPa")
         axes.grid(False)
     panels[-1, 0].set_xlabel("x [m]")
     fig.colorbar(filled, ax=panels[:, 0], label="excess pore pressure [kPa]", aspect=35)

@@ -25,8 +25,8 @@ struct RuptureTimes {
     require_not_negative("time of drainage", drainage);
   }
 
-  /// Load factor at the end of the drainage, in which it grows by a thousandth of the throw [m].
-  double end(double throw_to) const { return drainage > 0.0 ? 1.001 * throw_to : throw_to; }
+  /// Load factor at the end of the drainage, in which it grows by a ten-thousandth of the throw [m].
+  double end(double throw_to) const { return drainage > 0.0 ? 1.0001 * throw_to : throw_to; }
   /// Time [s] since the fault began to move, over the load factor, the throw [m]. start: load factor of the ground at
   /// rest, below 0 where a structure is placed; before: time [s] that the water has to drain then
   TimeFunction clock(double start, double throw_to, double before) const {
