@@ -27,7 +27,7 @@ namespace biaxial_specimen {
 template <class ElementType>
 struct Dry {
   using Element = ElementType;
-  using Grid = scarp::Discretisation<Element>;
+  using Grid = scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::FullIntegration>;
   using Lateral = scarp::FollowingPressure<typename Element::Facet>;
   static constexpr bool have_water = false;
 

@@ -55,7 +55,7 @@ struct Watch {
 /// dead load. Two nodes of the base keep it from drifting and turning.
 template <class Element>
 ColumnResult column_test(Packing const& packing, Choice const& choice) {
-  using Grid = scarp::Discretisation<Element>;
+  using Grid = scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::FullIntegration>;
   scarp::Vector<3> const lengths(1.0, 1.0, 2.0);
   Grid grid(scarp::BoxMesh<Element>{.lengths = lengths, .cells = {1, 1, 2}}.generate());
   auto const& mesh = grid.mesh();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // User-defined source of packings, one for each point: a lattice whose overlap grows with depth and varies at random.
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/constitutive/correlated_field.hpp"
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/element/quad4.hpp"

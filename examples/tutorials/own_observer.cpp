@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // User-defined observer: records the curve of load over settlement and ends the run at a settlement.
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/mesh/box_mesh.hpp"

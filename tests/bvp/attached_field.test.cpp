@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/pore_water.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"

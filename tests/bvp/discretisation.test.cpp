@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "bvp/stiffness_check.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -24,7 +25,8 @@ static_assert(!scarp::Kinematics<Eulerian>, "a policy that only tells its config
 
 TEST_CASE_TEMPLATE("the stiffness is the derivative of the internal force at a large increment", Element, scarp::Quad4,
                    scarp::Tet4 ALSO_NIGHTLY(scarp::Tri3)) {
-  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
+  scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::FullIntegration> const disc(
+      samples::distorted_block<Element>(2));
   samples::NeoHookean<Element::dim> const solid;
   Eigen::VectorXd const increment =
       samples::affine<Element::dim>(disc.mesh().nodes, samples::general_gradient<Element::dim>(0.3)) +
@@ -37,7 +39,8 @@ TEST_CASE_TEMPLATE("the stiffness is the derivative of the internal force at a l
 TEST_CASE_TEMPLATE("the stiffness includes the turning of the stress that a point already carries", Element,
                    scarp::Tet4 ALSO_NIGHTLY(scarp::Tri3)) {
   using Provider = scarp::LinearElastic<Element::dim>;
-  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
+  scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::FullIntegration> const disc(
+      samples::distorted_block<Element>(2));
   auto const soil = Provider::from_lame(3e6, 2e6);
   scarp::VoigtStress<Element::dim> const high = scarp::VoigtStress<Element::dim>::LinSpaced(-2e6, 1e6);
   std::vector<typename Provider::State> const stressed(static_cast<std::size_t>(disc.point_count()), {high});
@@ -46,7 +49,8 @@ TEST_CASE_TEMPLATE("the stiffness includes the turning of the stress that a poin
 }
 
 TEST_CASE("small-strain stiffness is the derivative of the internal force") {
-  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(samples::distorted_block<scarp::Quad4>(2));
+  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain, scarp::FullIntegration> const disc(
+      samples::distorted_block<scarp::Quad4>(2));
   auto const soil = scarp::LinearElastic<2>::from_lame(3e6, 2e6);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
   CHECK(samples::stiffness_error(soil, disc, samples::fresh<scarp::LinearElastic<2>>(disc), nothing) < 1e-8);
@@ -84,7 +88,8 @@ TEST_CASE("a stressed patch that turns by 30 degrees keeps its stress in its own
 
 TEST_CASE_TEMPLATE("a free body has its rigid motions and no other zero mode", Element,
                    scarp::Quad4 ALSO_NIGHTLY(scarp::Tri3, scarp::Tet4)) {
-  scarp::Discretisation<Element> const disc(samples::distorted_block<Element>(2));
+  scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::FullIntegration> const disc(
+      samples::distorted_block<Element>(2));
   auto const soil = scarp::LinearElastic<Element::dim>::from_lame(3e6, 2e6);
   Eigen::VectorXd const nothing = Eigen::VectorXd::Zero(disc.dof_count());
   auto const points = samples::answers(soil, disc, samples::fresh<decltype(soil)>(disc), nothing);
@@ -99,7 +104,8 @@ TEST_CASE_TEMPLATE("a free body has its rigid motions and no other zero mode", E
 }
 
 TEST_CASE("internal forces are in balance for any stress, in sum and in moment") {
-  scarp::Discretisation<scarp::Quad4> const disc(samples::distorted_block<scarp::Quad4>(3), 0.7);
+  scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::FullIntegration> const disc(
+      samples::distorted_block<scarp::Quad4>(3), 0.7);
   Eigen::VectorXd const increment = samples::random_increment(disc.dof_count(), 0.03, 6);
   std::vector<scarp::VoigtStress<2>> stresses;
   for (int p = 0; p < disc.point_count(); ++p) {
@@ -156,7 +162,8 @@ TEST_CASE("small strain drives the material by the symmetric part only and balan
 }
 
 TEST_CASE("gradients refer to the configuration that was committed last") {
-  scarp::Discretisation<scarp::Quad4> disc(samples::distorted_block<scarp::Quad4>(2));
+  scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::FullIntegration> disc(
+      samples::distorted_block<scarp::Quad4>(2));
   auto const first = samples::general_gradient<2>(0.2);
   auto const second = scarp::Gradient<2>(first.transpose() * 0.7);
   disc.commit(samples::affine<2>(disc.positions(), first));
@@ -168,7 +175,8 @@ TEST_CASE("gradients refer to the configuration that was committed last") {
 }
 
 TEST_CASE("strains of a small further displacement stand in the rows of their own points") {
-  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain> const disc(samples::distorted_block<scarp::Quad4>(2));
+  scarp::Discretisation<scarp::Quad4, scarp::SmallStrain, scarp::FullIntegration> const disc(
+      samples::distorted_block<scarp::Quad4>(2));
   Eigen::VectorXd const increment = samples::random_increment(disc.dof_count(), 0.03, 7);
   std::vector<scarp::Gradient<2>> gradients(static_cast<std::size_t>(disc.point_count()));
   disc.gradients(increment, gradients);
@@ -243,4 +251,12 @@ TEST_CASE("arrays of the wrong length and wrong thicknesses are refused") {
   CHECK_REFUSED(scarp::Discretisation<scarp::Tri3>(samples::CrossedRectangle{}.generate(), 0.0), "thickness is 0");
   CHECK_REFUSED(scarp::Discretisation<scarp::Tet4>(samples::distorted_block<scarp::Tet4>(1), 0.2), "thickness is 0.2");
   CHECK_REFUSED(scarp::Discretisation<scarp::Tri3>(scarp::Mesh<scarp::Tri3>{}), "0 nodes", "empty");
+}
+
+TEST_CASE("elements have their default integration, whatever their kinematics") {
+  using scarp::Discretisation, scarp::SmallStrain;
+  CHECK(std::is_same_v<Discretisation<scarp::Quad4, SmallStrain>,
+                       Discretisation<scarp::Quad4, SmallStrain, scarp::BBar>>);
+  CHECK(Discretisation<scarp::Quad8, SmallStrain>::points_per_element == 4);
+  CHECK(Discretisation<scarp::Tri6>::points_per_element == 3);
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/element/quad8.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/element/tri6.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../specimen.hpp"
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/bvp/pore_water.hpp"
 #include "scarp/mesh/box_mesh.hpp"
 

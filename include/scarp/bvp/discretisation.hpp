@@ -13,18 +13,18 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/grid.hpp"
-#include "scarp/bvp/integration.hpp"
 #include "scarp/bvp/kinematics.hpp"
 #include "scarp/bvp/sparsity.hpp"
 #include "scarp/core/precompiled.hpp"
 
 namespace scarp {
 
-/// Finite elements on a mesh, see `Grid`: point = (number of an element's material points) * element + its own number,
-/// where the material points are those of `Scheme`. All sums run in the order of the elements, so that the same input
-/// gives the same bits. Members that cost much to compile are defined outside, so that a library can contain them.
-template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian, Integration<Element> Scheme = FullIntegration>
+/// Finite elements on a mesh, see `Grid`: point = (number of an element's material points, those of `Scheme`) *
+/// element + its own number. All sums run in the order of the elements: same input, same bits.
+template <CheckedElement Element, Kinematics Motion = UpdatedLagrangian,
+          Integration<Element> Scheme = DefaultIntegration<Element>>
 class SCARP_EXPORT Discretisation : public Grid<Element::dim> {
   using Base = Grid<Element::dim>;
   using Base::moved, Base::require_length;

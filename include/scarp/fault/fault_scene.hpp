@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"

@@ -4,7 +4,7 @@
 #include <concepts>
 #include <vector>
 
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/fault_mesh.hpp"
 #include "scarp/mesh/mesh.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/fault/fault_scene.hpp"
 
 namespace scarp {

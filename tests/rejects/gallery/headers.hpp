@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/bvp/attached_field.hpp"
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/bvp/following_pressure.hpp"
 #include "scarp/bvp/interface.hpp"
 #include "scarp/bvp/pore_water.hpp"
