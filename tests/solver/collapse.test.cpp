@@ -225,3 +225,42 @@ TEST_CASE("ground that fails in the step which comes to the end has failed, what
     CHECK(factor.fails == 1.0);
   }
 }
+
+TEST_CASE("ground that is left without stiffness has failed, also by the default settings") {
+  for (double const friction : {0.0, 0.5}) {
+    scarp::Model<2> model(
+        Grid(scarp::BoxMesh<scarp::Quad8>{.lengths = scarp::Vector<2>(2.0, 2.0), .cells = {1, 1}}.generate()));
+    model.fix({"left"}, 0);
+    model.fix({"bottom"}, 1);
+    model.surcharge({"top"}, 1e3, scarp::TimeFunction::after(0.0));
+    model.material("soil", Soil{.elasticity = stiffness(), .strength = {{.cohesion = 10e3, .friction = friction}}});
+    scarp::Analysis analysis(model, {.stepping = {.first = 1.0, .smallest = 1e-3, .largest = 2.0}});
+    auto const end = find_collapse(analysis, 100.0);
+    INFO(end.why, end.ratio);
+    CHECK(end.failed);
+    double const exact = 2.0 * 10e3 * std::tan(0.785398163397448 + friction / 2.0);  // of a free block
+    CHECK(1e3 * end.load == samples::Approx(exact).epsilon(1e-2));
+  }
+}
+
+TEST_CASE("a factor that the stress at rest does not bear ends no search for that of safety") {
+  auto const at_rest = [](double factor) {
+    auto model = slope(factor);
+    model.set_surface_level(10.0);
+    double const friction = std::atan(std::tan(20.0 / 180.0 * 3.14159265358979) / factor);
+    using AtRest = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
+    scarp::Model<2> own(model.grid().copy());
+    own.fix({"left"}, 0);
+    own.fix({"bottom"});
+    own.gravity(20e3);
+    own.set_surface_level(10.0);
+    own.material("soil", AtRest{.elasticity = stiffness(),
+                                .strength = {{.cohesion = 10e3 / factor, .friction = friction}},
+                                .initial = own.geostatic(0.5)});
+    return own;
+  };
+  auto const found = scarp::reduce_strength(at_rest, {.to = 4.0, .tolerance = 0.05});
+  INFO(found.why);
+  CHECK(found.stands > 1.0);
+  CHECK(found.stands < 1.45);
+}

@@ -11,7 +11,7 @@
 namespace scarp {
 
 /// When ground has failed. A load step that becomes too small is no failure by itself: one packing or one bad element
-/// can cause it.
+/// can cause it. Ground that has moved and then has no stiffness left has failed.
 struct CollapseSettings {
   double failed = 100.0;  ///< largest displacement gradient per load, over that of the first step: the ground fails
   double failing = 10.0;  ///< the same where no equilibrium follows: less means that something else stopped it
@@ -73,6 +73,7 @@ class CollapseWatch {
     }
   }
   bool wants_stop() const { return ratio_ >= failed_; }  ///< Whether the ground has failed.
+  bool has_moved() const { return first_ > 0.0; }        ///< Whether a step of this stage was accepted that moved.
   /// Gradient per load of the last attempt over that of the first step that moved; of the last step where a point has
   /// stopped it.
   double ratio() const { return beyond_; }
@@ -118,15 +119,21 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
   end.run = analysis.to(to, both);
   end.load = end.run.load;
   end.ratio = watch.ratio();
-  bool const is_out_of_balance = end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing;
+  bool const has_no_stiffness =
+      !end.run.verdict.acceptable() && watch.has_moved() && end.run.last_failure == Reason::singular_system;
+  bool const is_out_of_balance =
+      has_no_stiffness || (end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing);
   end.failed = watch.wants_stop() || is_out_of_balance;  // also in the step that comes to the end
-  end.why =
-      end.failed
-          ? fmt::format(
-                "the ground fails beyond the load factor {:.6g}: displacement gradients per load are {:.3g} times "
-                "those of the first step",
-                end.load, end.ratio)
-          : analysis.why(end.run);
+  if (!end.failed) {
+    end.why = analysis.why(end.run);
+  } else if (end.ratio < settings.failing) {
+    end.why = fmt::format("the ground fails beyond the load factor {:.6g}: it has no stiffness left", end.load);
+  } else {
+    end.why = fmt::format(
+        "the ground fails beyond the load factor {:.6g}: displacement gradients per load are {:.3g} times "
+        "those of the first step",
+        end.load, end.ratio);
+  }
   return end;
 }
 /// Without an observer. \throws InputError for settings outside of their range
@@ -148,13 +155,16 @@ struct [[nodiscard]] SafetyFactor {
 /// Strength reduction: make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor.
 /// The interval between a factor that stands and one that fails is halved until it is within the tolerance. Use small
 /// strain: in large strain ground may stiffen by its new shape.
-/// \return stands 0 where `from` fails, fails 0 where `to` stands or a run is stopped by something else than failure
+/// A larger factor that the initial stress does not bear is too large, but no failure.
+/// \return stands 0 where `from` fails, fails 0 where `to` stands, no factor was found that fails, or a run is stopped
+/// by something else than failure
 /// \throws InputError for settings outside of their range, and for a model with loads that change beyond the load
 /// factor
 template <class MakeModel>
 SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction const& settings = {}) {
   detail::validated(settings);
   SafetyFactor found;
+  double high = settings.to;  // no larger factor is tried
   auto const stands = [&](double factor) {
     auto const model = make_model(factor);
     Analysis analysis(model, settings.analysis);
@@ -165,12 +175,22 @@ SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction cons
     Collapse const end = find_collapse(analysis, settings.load, settings.collapse);
     if (!end.stands()) found.why = fmt::format("factor {:.4g}: {}", factor, end.why);
     if (end.stands()) found.stands = factor;
-    if (end.failed) found.fails = factor;
+    if (end.failed) found.fails = high = factor;
     return end.stands() || end.failed;
   };
-  if (!stands(settings.from) || found.fails > 0.0 || !stands(settings.to) || found.stands == settings.to) return found;
-  while (found.fails > found.stands * (1.0 + settings.tolerance)) {
-    if (!stands((found.stands + found.fails) / 2.0)) {
+  auto const is_known = [&](double factor) {
+    try {
+      return stands(factor);
+    } catch (InputError const& error) {  // the model was accepted at a smaller factor
+      found.why = fmt::format("factor {:.4g}: {}", factor, error.what());
+      high = factor;
+      return true;
+    }
+  };
+  if (!stands(settings.from) || found.fails > 0.0 || !is_known(settings.to) || found.stands == settings.to)
+    return found;
+  while (high > found.stands * (1.0 + settings.tolerance)) {
+    if (!is_known((found.stands + high) / 2.0)) {
       found.fails = 0.0;
       return found;
     }
