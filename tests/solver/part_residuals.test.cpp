@@ -84,6 +84,16 @@ TEST_CASE("a block whose loads balance each other to round-off has no residual o
   CHECK(parts.largest(1e-3 * Eigen::VectorXd::Ones(problem.dof_count()), loads, 0.0) == 0.0);
 }
 
+TEST_CASE("a block that weighs less than a millionth of the whole needs no equilibrium of its own") {
+  scarp::SerialExecutor serial;
+  auto const problem = ground_with_block(samples::elastic_soil(), serial);
+  scarp::detail::RegionResiduals<2> const parts(problem.grid(), problem.constraints());
+  Eigen::VectorXd loads = problem.loads().at(0.0);
+  auto const weight = (problem.loads().at(1.0) - loads).eval();
+  CHECK(parts.largest(weight, loads + weight, 0.0) > 1.0);
+  CHECK(parts.largest(1e-9 * weight, loads + 1e-9 * weight, 0.0) < 1e-5);
+}
+
 TEST_CASE("nine hundredths of a light block that nothing carries are no equilibrium, however heavy the ground") {
   scarp::SerialExecutor serial;
   auto problem = ground_with_block(samples::elastic_soil(), serial);

@@ -151,7 +151,10 @@ class SCARP_EXPORT RegionResiduals {
       double applied = 0.0;
       for (std::size_t k = 0; k < own; ++k) applied += loads.template segment<Dim>(Dim * nodes[k]).norm();
       constexpr double round_off = 1e-12;
-      return size <= round_off * applied ? 0.0 : resultant(unbalanced, nodes.size()) / past.scale(size, load);
+      if (size <= round_off * applied) return 0.0;
+      constexpr double least = 1e-6;  // of all loads: less is not worth an equilibrium of its own
+      double const scale = std::max(past.scale(size, load), least * loads.template lpNorm<1>());
+      return resultant(unbalanced, nodes.size()) / scale;
     }
 
     /// Of the first so many nodes' forces: sum and couple, the latter over the region's radius.
