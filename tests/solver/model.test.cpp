@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "scarp/constitutive/linear_elastic.hpp"
@@ -181,4 +182,59 @@ TEST_CASE("ground at rest is level at its top, or has a level that was set") {
   CHECK_REFUSED(tilted.depths(), "not level there");
   tilted.set_surface_level(1.02 * height);
   CHECK(tilted.geostatic(0.5).unit_weight == weight);
+}
+
+namespace {
+
+/// The column in two layers, the lower one 1 m thick, or with a surface in two halves.
+scarp::Model<2> layers() {
+  auto mesh = scarp::BoxMesh<scarp::Quad4>{.lengths = scarp::Vector<2>(2.0, height), .cells = {2, 8}}.generate();
+  mesh.regions = {"sand", "clay"};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    mesh.element_region[e] = mesh.nodes[static_cast<std::size_t>(mesh.elements[e][2])].y() < 1.1 ? 1 : 0;
+  mesh.boundaries["half"] = {mesh.boundaries.at("top").front()};
+  scarp::Model<2> model(Grid(std::move(mesh)));
+  model.fix({"left", "right"}, 0);
+  model.fix({"bottom"});
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("weights and materials of regions together are those of each") {
+  auto model = layers();
+  model.gravity({"sand", "clay"}, weight);
+  model.material({"sand", "clay"}, scarp::LinearElastic<2>::from_young_poisson(young, 0.25));
+  CHECK(model.dead_loads().sum() == Approx(-2.0 * height * weight).epsilon(1e-9));
+  scarp::Analysis analysis(model, {.threads = 1});
+  REQUIRE(analysis.to(1.0).verdict.acceptable());
+  CHECK(analysis.reaction("bottom").y() == Approx(2.0 * height * weight).epsilon(1e-6));
+  CHECK_REFUSED(model.gravity({"clay", "peat"}, 1.0), "peat");
+  CHECK(model.dead_loads().sum() == Approx(-2.0 * height * weight).epsilon(1e-9));
+  CHECK_REFUSED(model.surcharge({"top"}, std::nan("")), "surcharge");
+}
+
+TEST_CASE("the stress at rest is that of one weight below a whole surface") {
+  auto model = layers();
+  model.gravity("sand", 16e3);
+  model.gravity("clay", 20e3);
+  CHECK_REFUSED(model.geostatic(0.5), "from 16000 to 20000 N/m3");
+  CHECK_REFUSED(model.geostatic(0.5, "clay"), "below ground of another unit weight");
+  CHECK(model.geostatic(0.5, "sand").unit_weight == 16e3);
+  auto partly = layers();
+  partly.gravity(weight);
+  partly.surcharge({"half"}, 50e3);
+  CHECK_REFUSED(partly.geostatic(0.5), "a part of the surface");
+  auto later = layers();
+  later.gravity(weight);
+  later.surcharge({"half"}, 50e3, scarp::TimeFunction::ramp(1.0, 2.0));
+  CHECK(later.geostatic(0.5).surcharge == 0.0);
+}
+
+TEST_CASE("a support carries the part of the weight that acts on ground without stress") {
+  auto model = column();
+  model.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, 0.25));
+  scarp::Analysis analysis(model, {.threads = 1});
+  REQUIRE(analysis.to(0.5).verdict.acceptable());
+  CHECK(analysis.reaction("bottom").y() == Approx(height * weight).epsilon(1e-5));
 }

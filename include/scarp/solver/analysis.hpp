@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -12,7 +13,8 @@
 
 namespace scarp {
 
-/// How an `Analysis` goes through its load factor.
+/// How an `Analysis` goes through its load factor. Who names a member of `stepping` gives the others the defaults of
+/// `LoadStepping`: name `largest` too.
 struct AnalysisSettings {
   QuasiNewton<> solver{};                                                  ///< of each load step
   LoadStepping stepping{.first = 0.05, .smallest = 1e-4, .largest = 0.1};  ///< of the load factor
@@ -55,11 +57,14 @@ class SCARP_EXPORT Analysis {
   /// Displacement [m] of a boundary's node that has moved farthest along an axis, with its sign.
   /// \throws InputError for an unknown boundary or axis
   double displacement(std::string_view side, int axis) const;
+  double displacement(typename Model<Dim>::Names, int) const = delete;  // two names in braces would be read as one
 
   /// Force [N] of the support of a boundary: what its nodes carry, of ground and of what is attached, less their loads.
-  /// Below the load factor 1 it is that of ground which was in equilibrium at first, so that the whole weight counts.
+  /// Below the load factor 1 it is that of ground which was in equilibrium at first, so that the whole weight counts;
+  /// of ground that was without stress, the part of the weight that acts.
   /// \throws InputError for an unknown boundary
   Vector<Dim> reaction(std::string_view side) const;
+  Vector<Dim> reaction(typename Model<Dim>::Names) const = delete;
 
   /// A run's end in words: where it stopped and why the last attempt was rejected.
   std::string why(RunReport const& run) const;
@@ -96,7 +101,10 @@ Analysis<Dim>::Analysis(Model<Dim> const& model, AnalysisSettings const& setting
     : settings_(settings),
       executor_(settings.threads),
       problem_(model.problem(executor_)),
-      external_(model.external_loads()),
+      external_(model.external_loads(
+          std::ranges::all_of(problem_.committed_stresses(), [](auto const& stress) { return stress.isZero(0.0); })
+              ? TimeFunction::ramp(0.0, 1.0)
+              : TimeFunction::constant(1.0))),
       session_(settings_.solver, problem_) {}
 
 template <int Dim>

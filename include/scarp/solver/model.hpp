@@ -15,8 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/constitutive/geostatic_stress.hpp"
+#include "scarp/solver/detail/ground_top.hpp"
 #include "scarp/solver/make_problem.hpp"
 
 namespace scarp {
@@ -39,7 +40,7 @@ template <int Dim>
 class SCARP_EXPORT Model {
  public:
   static constexpr int dim = Dim;                         ///< of space
-  using Sides = std::initializer_list<std::string_view>;  ///< names of boundaries
+  using Names = std::initializer_list<std::string_view>;  ///< of boundaries or regions
 
   /// Elements, kinematics and integration of the program's choice.
   explicit Model(std::unique_ptr<Grid<Dim>> grid);
@@ -70,16 +71,18 @@ class SCARP_EXPORT Model {
   /// Where the material points of a region are, of all without a name.
   /// \throws InputError for an unknown region
   std::vector<Site<Dim>> sites(std::string_view region = {}) const;
+  std::vector<Site<Dim>> sites(Names) const = delete;  // two names in braces would be read as one
   /// Their depths [m].
   /// \throws InputError for an unknown region, and for ground that is highest in one place only where no level was set
   std::vector<double> depths(std::string_view region = {}) const;
+  std::vector<double> depths(Names) const = delete;
 
   /// Holds boundaries along an axis.
   /// \throws InputError for an unknown boundary or axis
-  void fix(Sides sides, int axis) { move(sides, axis, 0.0); }
+  void fix(Names sides, int axis) { move(sides, axis, 0.0); }
   /// Holds boundaries along all axes.
   /// \throws InputError for an unknown boundary
-  void fix(Sides sides) {
+  void fix(Names sides) {
     Constraints all = constraints_;  // a rejected call changes nothing
     for (auto const side : sides)
       for (int const node : grid_->boundary_nodes(side)) all.fix(node);
@@ -87,13 +90,19 @@ class SCARP_EXPORT Model {
   }
   /// Moves boundaries along an axis by rate [m] times the growth of `amplitude` since the load factor 0.
   /// \throws InputError for an unknown boundary or axis, and nodes that are moved in another way already
-  void move(Sides sides, int axis, double rate, TimeFunction const& amplitude = {});
+  void move(Names sides, int axis, double rate, TimeFunction const& amplitude = {});
 
   /// Any provider, or a `Nonlocal` one, for the points of a region.
   template <CheckedMaterial MaterialType>
     requires(MaterialType::dim == dim)
-  void material(std::string region, MaterialType const& of_points) {
-    regions_.push_back({std::move(region), of_points});
+  void material(std::string_view region, MaterialType const& of_points) {
+    regions_.push_back({std::string(region), of_points});
+  }
+  /// The same for several regions.
+  template <CheckedMaterial MaterialType>
+    requires(MaterialType::dim == dim)
+  void material(Names regions, MaterialType const& of_points) {
+    for (auto const region : regions) material(region, of_points);
   }
 
   /// A field on the elements, as it is now, such as a `PoreWater`.
@@ -110,56 +119,56 @@ class SCARP_EXPORT Model {
     require_not_at_rest();
     std::ranges::fill(weights_, require_not_negative("unit weight", unit_weight));
   }
-  /// Weight of one region [N/m3].
+  /// Weight of regions [N/m3].
   /// \throws InputError for an unknown region, and after the stress at rest was taken
-  void gravity(std::string_view region, double unit_weight) {
+  void gravity(Names regions, double unit_weight) {
     require_not_at_rest();
-    weights_[detail::index(region_number(*grid_, region))] = require_not_negative("unit weight", unit_weight);
+    require_not_negative("unit weight", unit_weight);
+    auto weights = weights_;  // a rejected call changes nothing
+    for (auto const region : regions) weights[detail::index(region_number(*grid_, region))] = unit_weight;
+    weights_ = std::move(weights);
   }
+  /// Weight of one region [N/m3], as above.
+  void gravity(std::string_view region, double unit_weight) { gravity(Names{region}, unit_weight); }
   /// Force per area [Pa] on boundaries of the initial mesh, grown to its full size at the load factor 1, or with an
   /// amplitude.
   /// \throws InputError for an unknown boundary
-  void traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude = {});
+  void traction(Names sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude = {});
   /// Vertical pressure [Pa], downwards along the last axis, on boundaries of the initial mesh, as a traction.
   /// \throws InputError for an unknown boundary, and without amplitude after the stress at rest was taken
-  void surcharge(Sides sides, double pressure, std::optional<TimeFunction> const& amplitude = {}) {
+  void surcharge(Names sides, double pressure, std::optional<TimeFunction> const& amplitude = {}) {
     if (!amplitude) require_not_at_rest();
+    require_finite("surcharge", pressure);
     traction(sides, -pressure * Vector<dim>::Unit(dim - 1), amplitude);
     if (amplitude) return;
     for (auto const side : sides) surcharges_[std::string(side)] += pressure;
   }
 
-  /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of the first one,
-  /// and of all sides with a surcharge. Others belong to the material itself.
-  /// \throws InputError for an unknown region, one without weight, surcharges that differ, and ground that is highest
-  /// in one place only where no level was set
-  GeostaticStress<dim> geostatic(double k0, std::string_view region = {}) const {
-    require_level_top();
-    double const weight = weights_[detail::index(region.empty() ? 0 : region_number(*grid_, region))];
-    double const surcharge = surcharges_.empty() ? 0.0 : surcharges_.begin()->second;
-    if (weight == 0.0) reject("the stress at rest is requested of ground without weight: give gravity first");
-    for (auto const& [side, pressure] : surcharges_) {
-      if (pressure != surcharge)
-        reject("the stress at rest is requested below surcharges of {} and {} Pa: give the material its own stress",
-               surcharge, pressure);
-    }
-    is_at_rest_ = true;
-    return {.surcharge = surcharge, .unit_weight = weight, .k0 = k0};
-  }
+  /// Stress of level ground at rest, of one unit weight below one surcharge: those of a region, or of all, and of the
+  /// whole surface. Others belong to the material itself.
+  /// \throws InputError for an unknown region, one without weight or below another unit weight, several of different
+  /// weights without a name, surcharges that differ or press on a part of the surface, and ground that is highest in
+  /// one place only where no level was set
+  GeostaticStress<Dim> geostatic(double k0, std::string_view region = {}) const;
+  GeostaticStress<Dim> geostatic(double, Names) const = delete;
 
   /// Weight and surcharges [N], shape (dof_count), without those that have an amplitude of their own.
   Eigen::VectorXd dead_loads() const;
   /// External forces [N] by load factor, without those that hold what the initial stresses leave unbalanced.
-  LoadHistory external_loads() const;
+  /// of_dead_loads: amplitude of weight and surcharges
+  LoadHistory external_loads(TimeFunction const& of_dead_loads) const;
 
   /// For solvers. The executor outlives the problem.
   /// \throws InputError when the parts do not fit together
   Problem<Dim> problem(Executor& executor) const;
 
  private:
-  void require_level_top() const;
+  void require_level_top() const {
+    if (!level_) detail::GroundTop<Dim>(*grid_, surface_level()).require_level();
+  }
   void require_not_at_rest() const {
-    if (is_at_rest_) reject("weight or surcharge are given after the stress at rest was taken: give them before");
+    if (is_at_rest_)
+      reject("weight or surcharge are given after the stress at rest was taken: give them before, or an amplitude");
   }
 
   std::unique_ptr<Grid<Dim>> grid_;
@@ -193,23 +202,13 @@ std::vector<Site<Dim>> Model<Dim>::sites(std::string_view region) const {
 }
 
 template <int Dim>
-void Model<Dim>::require_level_top() const {
-  if (level_) return;
-  constexpr int up = dim - 1;
-  auto const& nodes = grid_->nodes();
-  auto const ends = std::ranges::minmax(nodes, {}, [](auto const& node) { return node(up); });
-  auto const& high = ends.max;
-  double const nearly = 1e-6 * (high(up) - ends.min(up));
-  for (int axis = 0; axis < up; ++axis) {
-    auto const is_apart = [&](auto const& node) {
-      return node(up) >= high(up) - nearly && std::abs(node(axis) - high(axis)) > nearly;
-    };
-    if (std::ranges::none_of(nodes, is_apart))
-      reject(
-          "the ground is highest at ({}) and not level there (the stress at rest is that below one level): set the "
-          "level where one is meant, or give the material its own stress",
-          listed(high));
-  }
+GeostaticStress<Dim> Model<Dim>::geostatic(double k0, std::string_view region) const {
+  require_level_top();
+  detail::GroundTop<Dim> const top(*grid_, surface_level());
+  double const weight = top.weight(weights_, region);
+  double const surcharge = top.surcharge(surcharges_);
+  is_at_rest_ = true;
+  return {.surcharge = surcharge, .unit_weight = weight, .k0 = k0};
 }
 
 template <int Dim>
@@ -221,7 +220,7 @@ std::vector<double> Model<Dim>::depths(std::string_view region) const {
 }
 
 template <int Dim>
-void Model<Dim>::move(Sides sides, int axis, double rate, TimeFunction const& amplitude) {
+void Model<Dim>::move(Names sides, int axis, double rate, TimeFunction const& amplitude) {
   Constraints all = constraints_;  // a rejected call changes nothing
   for (auto const side : sides)
     for (int const node : grid_->boundary_nodes(side)) all.move(node, axis, rate, amplitude);
@@ -229,7 +228,7 @@ void Model<Dim>::move(Sides sides, int axis, double rate, TimeFunction const& am
 }
 
 template <int Dim>
-void Model<Dim>::traction(Sides sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude) {
+void Model<Dim>::traction(Names sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(grid_->dof_count());
   for (auto const side : sides) forces += grid_->traction(side, per_area);
   if (amplitude) {
@@ -248,9 +247,9 @@ Eigen::VectorXd Model<Dim>::dead_loads() const {
 }
 
 template <int Dim>
-LoadHistory Model<Dim>::external_loads() const {
+LoadHistory Model<Dim>::external_loads(TimeFunction const& of_dead_loads) const {
   LoadHistory loads = later_;
-  loads.add(dead_loads(), TimeFunction::constant(1.0));
+  loads.add(dead_loads(), of_dead_loads);
   return loads;
 }
 
