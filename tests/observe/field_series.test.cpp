@@ -135,3 +135,24 @@ TEST_CASE("a series' end, number of frames and unit that cannot be are refused")
   CHECK_REFUSED(series(1.0, 0, 25.0), "up to the end of the load is 0");
   CHECK_REFUSED(series(1.0, 4, std::nan("")), "unit of the load is nan");
 }
+
+TEST_CASE("a series belongs to one run") {
+  scarp::SerialExecutor serial;
+  scarp::Discretisation<scarp::Quad4> grid(
+      scarp::BoxMesh<scarp::Quad4>{.lengths = {1.0, 1.0}, .cells = {1, 1}}.generate());
+  scarp::Constraints constraints(grid.mesh());
+  auto const region = grid.mesh().regions.front();
+  auto problem =
+      scarp::make_problem(grid, 1.0, boost::hana::make_tuple(scarp::Region{region, Soil::from_young_poisson(1e6, 0.3)}),
+                          std::move(constraints), scarp::LoadHistory(), serial);
+  samples::ScratchFolder const folder;
+  scarp::FieldSeries series(folder.path(), {.to = 1.0, .count = 2});
+  scarp::StepReport report;
+  for (double const load : {0.0, 0.5, 1.0}) {
+    report.load = load;
+    series.attempted(problem, report);
+  }
+  CHECK(series.last() == 1.0);
+  report.load = 0.5;
+  CHECK_REFUSED(series.attempted(problem, report), "reach the load 1", "at 0.5");
+}

@@ -57,8 +57,11 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 inline OpenFile open_file(std::filesystem::path const& opened, char const* mode, std::filesystem::path const& wanted) {
   auto const folder = wanted.parent_path();
   if (!folder.empty() && !is_folder(folder)) {
-    throw FileError(
-        fmt::format("cannot write '{}' (there is no folder '{}'): create it first", wanted.string(), folder.string()));
+    std::error_code unknown;
+    bool const is_taken = std::filesystem::exists(folder, unknown);
+    throw FileError(fmt::format("cannot write '{}' ({} '{}'): {}", wanted.string(),
+                                is_taken ? "something else than a folder is" : "there is no folder", folder.string(),
+                                is_taken ? "name another folder" : "create it first"));
   }
   OpenFile file(std::fopen(opened.string().c_str(), mode));
   if (!file) {

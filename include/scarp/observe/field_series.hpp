@@ -94,17 +94,22 @@ ElementFields element_fields(Problem const& problem) {
 /// load in its unit.
 class FieldSeries : public NeverStops {
  public:
-  /// Files are written at load 0 and then whenever the load has grown by schedule.to / schedule.count.
+  /// Files are written at load 0, where a run settles there, and then whenever the load has grown by
+  /// schedule.to / schedule.count.
   /// \throws InputError for an end, a number of files or a unit that is not positive
   FieldSeries(std::filesystem::path folder, LoadSchedule const& schedule)
       : folder_(std::move(folder)), schedule_(detail::validated(schedule)), series_(folder_, "fields") {}
 
   double last() const { return schedule_.last; }  ///< Load that was written last; -1 before the first.
 
-  /// \throws InputError for a quantity that has the name of a field
+  /// \throws InputError for a quantity that has the name of a field, and for a second run
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    if (report.verdict.acceptable() && schedule_.takes(report.load)) write(problem, report.load);
+    if (!report.verdict.acceptable()) return;
+    if (report.load < schedule_.last)
+      reject("the fields in '{}' reach the load {} and the run is at {} (it is another run): give each its own series",
+             folder_.string(), schedule_.last, report.load);
+    if (schedule_.takes(report.load)) write(problem, report.load);
   }
 
   /// Writes the last state of a run whose fault has moved and that stopped between two frames; its statuses are those

@@ -58,7 +58,7 @@ class Progress : public NeverStops {
     if (report.weak_dof >= 0) return fmt::format(", nothing holds {}", problem.describe_dof(report.weak_dof));
     if (report.worst_point < 0) return "";
     auto const place = problem.grid().site(report.worst_point, 0.0).position;
-    return fmt::format(" at point {} ({:.2f}, {:.2f})", report.worst_point, place(0), place(1));
+    return fmt::format(" at point {} ({})", report.worst_point, listed(place, ", ", "{:.2f}"));
   }
 
   double to_;
