@@ -22,6 +22,7 @@ class Approx {
 
   friend bool operator==(double value, Approx const& other) {
     double const scale = std::max(std::abs(value), std::abs(other.expected_));
+    if (!std::isfinite(scale)) return value == other.expected_;  // infinity is within a share of itself
     return std::abs(value - other.expected_) <= other.tolerance_ * scale;
   }
   friend std::ostream& operator<<(std::ostream& out, Approx const& other) {
