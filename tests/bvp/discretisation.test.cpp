@@ -253,10 +253,14 @@ TEST_CASE("arrays of the wrong length and wrong thicknesses are refused") {
   CHECK_REFUSED(scarp::Discretisation<scarp::Tri3>(scarp::Mesh<scarp::Tri3>{}), "0 nodes", "empty");
 }
 
-TEST_CASE("elements have their default integration, whatever their kinematics") {
-  using scarp::Discretisation, scarp::SmallStrain;
-  CHECK(std::is_same_v<Discretisation<scarp::Quad4, SmallStrain>,
-                       Discretisation<scarp::Quad4, SmallStrain, scarp::BBar>>);
-  CHECK(Discretisation<scarp::Quad8, SmallStrain>::points_per_element == 4);
-  CHECK(Discretisation<scarp::Tri6>::points_per_element == 3);
-}
+namespace {
+
+using scarp::Discretisation, scarp::SmallStrain;
+static_assert(
+    std::is_same_v<Discretisation<scarp::Quad4, SmallStrain>, Discretisation<scarp::Quad4, SmallStrain, scarp::BBar>>,
+    "elements have their default integration, whatever their kinematics");
+static_assert(Discretisation<scarp::Quad8, SmallStrain>::points_per_element == 4);
+static_assert(Discretisation<scarp::Hex20, SmallStrain>::points_per_element == 8);
+static_assert(Discretisation<scarp::Tet10>::points_per_element == 4);
+
+}  // namespace

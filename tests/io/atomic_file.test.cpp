@@ -64,7 +64,7 @@ TEST_CASE("names that no file can have, and folders that cannot be made, are com
   };
   CHECK(write(folder / (long_name + ".vtu")) == samples::Naming{"cannot write", long_name});
   CHECK(write(folder / long_name / "a.vtu") == samples::Naming{"cannot write", "there is no folder"});
-  CHECK(write(folder / "file/a.vtu") == samples::Naming{"cannot write", "something else than a folder"});
+  CHECK(write(folder / "file/a.vtu") == samples::Naming{"cannot write", "is no folder"});
   for (auto const& made : {folder / "file", folder / "file/below", folder / long_name})
     CHECK(samples::message_of<scarp::FileError>([&] { scarp::make_folder(made); }) == samples::Naming{made.string()});
   CHECK_NOTHROW(scarp::make_folder(folder / "a/b"));

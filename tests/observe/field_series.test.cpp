@@ -154,5 +154,5 @@ TEST_CASE("a series belongs to one run") {
   }
   CHECK(series.last() == 1.0);
   report.load = 0.5;
-  CHECK_REFUSED(series.attempted(problem, report), "reach the load 1", "at 0.5");
+  CHECK_REFUSED(series.attempted(problem, report), "reaches the load 1", "at 0.5");
 }

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>

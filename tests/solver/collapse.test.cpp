@@ -245,11 +245,9 @@ TEST_CASE("ground that is left without stiffness has failed, also by the default
 
 TEST_CASE("a factor that the stress at rest does not bear ends no search for that of safety") {
   auto const at_rest = [](double factor) {
-    auto model = slope(factor);
-    model.set_surface_level(10.0);
     double const friction = std::atan(std::tan(20.0 / 180.0 * 3.14159265358979) / factor);
     using AtRest = scarp::MohrCoulomb<2, scarp::GeostaticStress<2>>;
-    scarp::Model<2> own(model.grid().copy());
+    scarp::Model<2> own(slope(factor).grid().copy());
     own.fix({"left"}, 0);
     own.fix({"bottom"});
     own.gravity(20e3);
@@ -263,4 +261,37 @@ TEST_CASE("a factor that the stress at rest does not bear ends no search for tha
   INFO(found.why);
   CHECK(found.stands > 1.0);
   CHECK(found.stands < 1.45);
+  if (found.fails == 0.0) CHECK(found.why.find("initial stress") != std::string::npos);
+}
+
+namespace {
+
+/// Ends a run at the first accepted step after a rejected one.
+struct EndsAfterRejection {
+  bool is_rejected = false, is_over = false;
+
+  template <class Problem>
+  void attempted(Problem const&, scarp::StepReport const& report) {
+    if (!report.verdict.acceptable()) is_rejected = true;
+    is_over = is_rejected && report.verdict.acceptable();
+  }
+  bool wants_stop() const { return is_over; }
+};
+
+}  // namespace
+
+TEST_CASE("a run that its observer ends has not failed, whatever was rejected before") {
+  scarp::Model<2> model(
+      Grid(scarp::BoxMesh<scarp::Quad8>{.lengths = scarp::Vector<2>(2.0, 2.0), .cells = {1, 1}}.generate()));
+  model.fix({"left"}, 0);
+  model.fix({"bottom"}, 1);
+  model.surcharge({"top"}, 1e3, scarp::TimeFunction::after(0.0));
+  model.material("soil", Soil{.elasticity = stiffness(), .strength = {{.cohesion = 10e3}}});
+  scarp::Analysis analysis(model, {.stepping = {.first = 1.0, .smallest = 1e-3, .largest = 2.0}});
+  EndsAfterRejection observer;
+  auto const end = find_collapse(analysis, 100.0, {}, observer);
+  INFO(end.why);
+  CHECK(observer.is_rejected);
+  CHECK(end.run.last_failure == scarp::Reason::singular_system);
+  CHECK(!end.failed);
 }

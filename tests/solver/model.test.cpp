@@ -221,6 +221,18 @@ TEST_CASE("the stress at rest is that of one weight below a whole surface") {
   CHECK_REFUSED(model.geostatic(0.5), "from 16000 to 20000 N/m3");
   CHECK_REFUSED(model.geostatic(0.5, "clay"), "below ground of another unit weight");
   CHECK(model.geostatic(0.5, "sand").unit_weight == 16e3);
+  auto mesh = scarp::BoxMesh<scarp::Quad4>{.lengths = scarp::Vector<2>(2.0, height), .cells = {2, 8}}.generate();
+  mesh.regions = {"sand", "silt", "clay"};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) mesh.element_region[e] = 2 - static_cast<int>(e) / 6;
+  scarp::Model<2> three{Grid(std::move(mesh))};
+  three.gravity({"sand", "silt"}, 16e3);
+  three.gravity("clay", 20e3);
+  CHECK(three.geostatic(0.5, "silt").unit_weight == 16e3);
+  CHECK_REFUSED(three.geostatic(0.5, "clay"), "below ground of another unit weight");
+  auto equal = layers();
+  equal.gravity({"sand", "clay"}, weight);
+  equal.surcharge({"half"}, 0.0);
+  CHECK(equal.geostatic(0.5, "clay").unit_weight == weight);
   auto partly = layers();
   partly.gravity(weight);
   partly.surcharge({"half"}, 50e3);

@@ -186,6 +186,12 @@ class Model:
         """Stress at rest of level ground, as keywords of a material: `surcharge` [Pa], `unit_weight` [N/m3] and `k0`.
 
         Weight and surcharges are given before.
+
+        Raises
+        ------
+        ValueError
+            For regions of different weights without a name, one below ground of another weight, and surcharges that differ or press on a part of
+            the surface.
         """
         rest: Dict[str, float] = self._model.geostatic(float(k0), region)
         self._calls.append(("geostatic", (float(k0), region)))

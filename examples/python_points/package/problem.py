@@ -452,8 +452,8 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
     Parameters
     ----------
     make_model : callable
-        make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. Leave initial stresses out: reduced
-        strengths may not bear them. Ground without cohesion gets a little, such as 100 Pa.
+        make_model(factor) returns a `Model` whose strengths, c and tan(phi), are divided by the factor. A larger factor that the initial stress
+        does not bear is too large, but no failure. Ground without cohesion gets a little, such as 100 Pa.
     least, most : float
         Factors that are tried first.
     tolerance : float
@@ -466,31 +466,41 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
     Returns
     -------
     SafetyFactor
-        `stands` 0 where `least` fails, `fails` 0 where `most` stands or a run is stopped by something else than failure.
+        `stands` 0 where `least` fails, `fails` 0 where `most` stands, no factor was found that fails, or a run is stopped by something else than
+        failure.
     """
     usual: Dict[str, Any] = {"tolerance": 1e-4, "max_iterations": 40, "tangent_floor": 1e-4, "largest": 0.05, "max_displacement_gradient": 0.1}
     why = ""
     stands = fails = 0.0
+    high = most
     if not 0.0 < least <= most or not 1e-6 <= tolerance <= 1.0:
         raise ValueError(f"factors from {least} to {most} within {tolerance} are requested (0 < least <= most and a tolerance of 1e-6 to 1 are expected): "
                          "correct them")
     factors = [least, most]
     while factors:
         factor = factors.pop(0)
-        analysis = Analysis(make_model(factor), **{**usual, **settings})
-        knot = analysis._analysis.next_knot(load)
-        if np.isfinite(knot):
-            raise ValueError(f"a factor of safety is requested at the load factor {load} (loads change at {knot}): give it a larger load factor")
-        end = analysis.find_collapse(load)
-        if end.run.status in ("ok", "fluid"):
-            stands = factor
+        model = make_model(factor)
+        try:
+            analysis = Analysis(model, **{**usual, **settings})
+        except ValueError as trouble:  # the stress at rest was within the strength at a smaller factor
+            if factor == least:
+                raise
+            why, high = f"factor {factor:.4g}: {trouble}", factor
         else:
-            why = f"factor {factor:.4g}: {end.run.why}"
-            fails = factor if end.failed else 0.0
-            if not end.failed or factor == least:
-                break
-        if not factors and stands > 0.0 and fails > stands * (1.0 + tolerance):
-            factors = [(stands + fails) / 2.0]
+            knot = analysis._analysis.next_knot(load)
+            if np.isfinite(knot):
+                raise ValueError(f"a factor of safety is requested at the load factor {load} (loads change at {knot}): give it a larger load factor")
+            end = analysis.find_collapse(load)
+            if end.run.status in ("ok", "fluid") and not end.failed:
+                stands = factor
+            else:
+                why = f"factor {factor:.4g}: {end.run.why}"
+                fails = factor if end.failed else 0.0
+                high = factor
+                if not end.failed or factor == least:
+                    break
+        if not factors and stands > 0.0 and high > stands * (1.0 + tolerance):
+            factors = [(stands + high) / 2.0]
     if not why:
         why = f"it stands at the largest factor, {most}: give a larger one, if make_model uses its factor"
     return SafetyFactor(stands, fails, why)

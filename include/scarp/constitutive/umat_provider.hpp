@@ -233,7 +233,7 @@ struct UmatProvider {
     double pnewdt = 1.0, celent = state.place.size, dtime = time_step;
     std::array<char, name_length> cmname;
     cmname.fill(' ');
-    auto const letters = std::string_view(name).substr(0, name_length);  // of a state that another name has made
+    auto const letters = std::string_view(name).substr(0, name_length);  // a state may come from another name
     std::ranges::transform(letters, cmname.begin(), [](char letter) {
       return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
     });

@@ -33,9 +33,10 @@ struct RuptureTimes {
     std::vector<std::pair<double, double>> knots{{0.0, 0.0}, {throw_to, rupture}};
     if (start < 0.0) knots.insert(knots.begin(), {start, -before});
     auto const times = of_drainage();
-    double const share = (end(throw_to) - throw_to) / static_cast<double>(std::max<std::size_t>(times.size(), 1));
-    for (std::size_t k = 0; k < times.size(); ++k)
-      knots.emplace_back(throw_to + static_cast<double>(k + 1) * share, rupture + times[k]);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      double const share = static_cast<double>(k + 1) / static_cast<double>(times.size());
+      knots.emplace_back(std::lerp(throw_to, end(throw_to), share), rupture + times[k]);
+    }
     return TimeFunction(std::move(knots));
   }
 

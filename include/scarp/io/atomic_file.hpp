@@ -59,9 +59,11 @@ inline OpenFile open_file(std::filesystem::path const& opened, char const* mode,
   if (!folder.empty() && !is_folder(folder)) {
     std::error_code unknown;
     bool const is_taken = std::filesystem::exists(folder, unknown);
-    throw FileError(fmt::format("cannot write '{}' ({} '{}'): {}", wanted.string(),
-                                is_taken ? "something else than a folder is" : "there is no folder", folder.string(),
-                                is_taken ? "name another folder" : "create it first"));
+    if (is_taken)
+      throw FileError(
+          fmt::format("cannot write '{}' ('{}' is no folder): name another one", wanted.string(), folder.string()));
+    throw FileError(
+        fmt::format("cannot write '{}' (there is no folder '{}'): create it first", wanted.string(), folder.string()));
   }
   OpenFile file(std::fopen(opened.string().c_str(), mode));
   if (!file) {

@@ -105,11 +105,7 @@ class FieldSeries : public NeverStops {
   /// \throws InputError for a quantity that has the name of a field, and for a second run
   template <class Problem>
   void attempted(Problem const& problem, StepReport const& report) {
-    if (!report.verdict.acceptable()) return;
-    if (report.load < schedule_.last)
-      reject("the fields in '{}' reach the load {} and the run is at {} (it is another run): give each its own series",
-             folder_.string(), schedule_.last, report.load);
-    if (schedule_.takes(report.load)) write(problem, report.load);
+    if (report.verdict.acceptable() && schedule_.takes(report.load)) write(problem, report.load);
   }
 
   /// Writes the last state of a run whose fault has moved and that stopped between two frames; its statuses are those

@@ -101,7 +101,11 @@ struct LoadSchedule {
   }
 
   /// Whether a state at this load is written; true once for each.
+  /// \throws InputError for a load below one that was written
   bool takes(double load) {
+    if (last >= 0.0 && load < last)
+      reject("what is recorded reaches the load {} and the run is at {} (it is another run): record each on its own",
+             last, load);
     constexpr double round_off = 1e-9;  // of loads that are sums of steps
     bool const reaches_end = load >= to && last < to;
     if (!(load > last) || (load < next && !reaches_end)) return false;

@@ -136,7 +136,7 @@ class CheckpointedRun {
 
   template <class Problem, class Session>
   void save(Problem& problem, Session const& session, RunState const& state) {
-    if (!files_.saves() || stopped_) return;  // observers have missed the last step
+    if (!files_.saves() || stopped_) return;  // some have missed the last step, or no file can be written
     writing(problem, [&] {
       with_all_states(problem, [&] {
         files_.save([&](StateWriter& writer) {

@@ -63,7 +63,7 @@ class StopHandlers {
 /// Ends a run when the process gets SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is gone, unless started by nohup),
 /// SIGPIPE (nobody reads its output any more), or SIGUSR1, SIGUSR2 and SIGXCPU (a batch system is about to end it). A
 /// second signal of the same kind ends it at once, but for SIGPIPE; one of another kind does not, since batch systems
-/// send several. System calls that a signal has interrupted continue. When the last of these objects is gone, the
+/// send several. Reads and writes that a signal interrupts continue. When the last of these objects is gone, the
 /// handlers are those from before it, and the signal is forgotten.
 class StopSignal {
  public:

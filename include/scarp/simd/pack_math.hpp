@@ -104,7 +104,7 @@ template <class Scalar, std::size_t Width>
   return BasicPack<Scalar, Width>(a.vector > b.vector ? a.vector : b.vector);
 }
 
-/// The greatest lane. Not-a-number stays in the first lane, and is passed over in the others.
+/// The greatest lane. Not-a-number in the first lane is returned, in the others it is passed over.
 template <class Scalar, std::size_t Width>
 [[gnu::always_inline]] inline Scalar hmax(BasicPack<Scalar, Width> const& x) {
   Scalar greatest = x[0];

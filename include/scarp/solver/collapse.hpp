@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <type_traits>
 
 #include "scarp/solver/analysis.hpp"
 
@@ -119,15 +121,16 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
   end.run = analysis.to(to, both);
   end.load = end.run.load;
   end.ratio = watch.ratio();
-  bool const has_no_stiffness =
-      !end.run.verdict.acceptable() && watch.has_moved() && end.run.last_failure == Reason::singular_system;
-  bool const is_out_of_balance =
-      has_no_stiffness || (end.run.verdict.reason == Reason::step_too_small && end.ratio >= settings.failing);
+  bool const is_stuck = end.run.verdict.reason == Reason::step_too_small;
+  bool const is_singular = end.run.verdict.reason == Reason::singular_system ||
+                           (is_stuck && end.run.last_failure == Reason::singular_system);
+  bool const is_out_of_balance = (is_singular && watch.has_moved()) || (is_stuck && end.ratio >= settings.failing);
   end.failed = watch.wants_stop() || is_out_of_balance;  // also in the step that comes to the end
   if (!end.failed) {
     end.why = analysis.why(end.run);
   } else if (end.ratio < settings.failing) {
     end.why = fmt::format("the ground fails beyond the load factor {:.6g}: it has no stiffness left", end.load);
+    if (end.run.weak_dof >= 0) end.why += ", nothing holds " + analysis.problem().describe_dof(end.run.weak_dof);
   } else {
     end.why = fmt::format(
         "the ground fails beyond the load factor {:.6g}: displacement gradients per load are {:.3g} times "
@@ -147,7 +150,7 @@ Collapse find_collapse(Analysis<Dim>& analysis, double to, CollapseSettings cons
 struct [[nodiscard]] SafetyFactor {
   double stands = 0.0;  ///< largest factor in equilibrium
   double fails = 0.0;   ///< smallest factor at which the ground fails; 0 where none was found
-  std::string why{};    ///< how the last run ended that was not in equilibrium
+  std::string why{};    ///< how the last factor ended that was not carried
 
   bool is_found() const { return stands > 0.0 && fails > 0.0; }  ///< Whether both are known.
 };
@@ -165,29 +168,28 @@ SafetyFactor reduce_strength(MakeModel const& make_model, StrengthReduction cons
   detail::validated(settings);
   SafetyFactor found;
   double high = settings.to;  // no larger factor is tried
-  auto const stands = [&](double factor) {
+  auto const is_known = [&](double factor) {
     auto const model = make_model(factor);
-    Analysis analysis(model, settings.analysis);
-    if (double const knot = analysis.problem().next_knot(settings.load); std::isfinite(knot)) {
+    std::optional<Analysis<std::remove_cvref_t<decltype(model)>::dim>> analysis;
+    try {
+      analysis.emplace(model, settings.analysis);
+    } catch (InputError const& error) {  // the stress at rest was within the strength at a smaller factor
+      if (factor == settings.from) throw;
+      found.why = fmt::format("factor {:.4g}: {}", factor, error.what());
+      high = factor;
+      return true;
+    }
+    if (double const knot = analysis->problem().next_knot(settings.load); std::isfinite(knot)) {
       reject("a factor of safety is requested at the load factor {} (loads change at {}): give it a larger load factor",
              settings.load, knot);
     }
-    Collapse const end = find_collapse(analysis, settings.load, settings.collapse);
+    Collapse const end = find_collapse(*analysis, settings.load, settings.collapse);
     if (!end.stands()) found.why = fmt::format("factor {:.4g}: {}", factor, end.why);
     if (end.stands()) found.stands = factor;
     if (end.failed) found.fails = high = factor;
     return end.stands() || end.failed;
   };
-  auto const is_known = [&](double factor) {
-    try {
-      return stands(factor);
-    } catch (InputError const& error) {  // the model was accepted at a smaller factor
-      found.why = fmt::format("factor {:.4g}: {}", factor, error.what());
-      high = factor;
-      return true;
-    }
-  };
-  if (!stands(settings.from) || found.fails > 0.0 || !is_known(settings.to) || found.stands == settings.to)
+  if (!is_known(settings.from) || found.fails > 0.0 || !is_known(settings.to) || found.stands == settings.to)
     return found;
   while (high > found.stands * (1.0 + settings.tolerance)) {
     if (!is_known((found.stands + high) / 2.0)) {

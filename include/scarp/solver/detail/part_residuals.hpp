@@ -146,13 +146,14 @@ class SCARP_EXPORT RegionResiduals {
     PastLoads past{};
 
     /// 0 for a region without loads, such as a block before it is placed, and for one whose loads balance to round-off.
+    /// A region with less than a millionth of all loads is measured by that.
     double residual(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load) const {
       double const size = resultant(loads, own);
       double applied = 0.0;
       for (std::size_t k = 0; k < own; ++k) applied += loads.template segment<Dim>(Dim * nodes[k]).norm();
       constexpr double round_off = 1e-12;
       if (size <= round_off * applied) return 0.0;
-      constexpr double least = 1e-6;  // of all loads: less is not worth an equilibrium of its own
+      constexpr double least = 1e-6;  // of the sizes of all loads' components
       double const scale = std::max(past.scale(size, load), least * loads.template lpNorm<1>());
       return resultant(unbalanced, nodes.size()) / scale;
     }
