@@ -200,8 +200,8 @@ class Analysis:
     def find_collapse(self, load: float, observers: Union[Observer, Sequence[Observer]] = (), fields: Optional[FieldSeries] = None, progress: bool = False,
                       time_limit: Optional[float] = None, failed: float = 100.0, failing: float = 10.0) -> Collapse:
         """Raises the load factor until the ground fails: until displacement gradients per load are `failed` times those of the first step that moves,
-        of this call and after each knot of the amplitudes, or `failing` times where no equilibrium follows. Ground with friction fails slowly:
-        compare the load with that of `failed=1000`. Other parameters as for `to`; `History` records the curve.
+        of this call and after each knot of the amplitudes, or `failing` times where no equilibrium follows; or until no stiffness is left.
+        Ground with friction fails slowly: compare the load with that of `failed=1000`. Other parameters as for `to`; `History` records the curve.
 
         Returns
         -------
