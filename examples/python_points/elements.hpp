@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "scarp/bvp/default_integration.hpp"
+#include "scarp/bvp/default_grid.hpp"
 #include "scarp/element/hex20.hpp"
 #include "scarp/element/hex8.hpp"
 #include "scarp/element/quad4.hpp"
@@ -20,7 +20,7 @@ namespace python_points {
 
 /// Small strains with the default integration.
 template <class Element>
-using SmallGrid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::DefaultIntegration<Element>>;
+using SmallGrid = scarp::Discretisation<Element, scarp::SmallStrain>;
 
 /// Calls task(name, std::type_identity<Element>) for all elements until it returns true.
 template <class Task>

@@ -410,6 +410,21 @@ expect(scarp.reduce_strength(slope, least=1.8, most=2.0).stands == 0.0 and scarp
 expect("larger" in scarp.reduce_strength(slope, most=1.1).why, "no word of a largest factor that stands")
 rejected(ValueError, "factors from 2", lambda: scarp.reduce_strength(slope, least=2.0, most=1.0))
 
+
+def level(factor):
+    model = scarp.Model(scarp.box_mesh("quad4", [2.0, 2.0], [2, 2]), kinematics="small_strain")
+    model.fix(["left", "right"], axis=0)
+    model.fix("bottom")
+    model.gravity(18e3)
+    friction = np.arctan(np.tan(np.radians(30)) / factor)
+    model.material("soil", scarp.mohr_coulomb(young=50e6, poisson=0.3, cohesion=1e3 / factor, friction=friction, **model.geostatic(0.5)))
+    return model
+
+
+# Level ground stands as long as its strength bears the stress at rest: K0 of 0.5 needs 19.5 degrees.
+found = scarp.reduce_strength(level, tolerance=0.05)
+expect(1.5 < found.stands < 1.9 and found.fails == 0.0 and "initial stress" in found.why, f"{found}")
+
 # A strip on ground under its weight: how it fails does not depend on whether its balance was a call of its own. A smooth strip on a layer, c N_c +
 # B gamma N_gamma / 2 with N_c 30.1 and N_gamma up to 15, carries 260 kPa at most.
 

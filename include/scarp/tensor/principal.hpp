@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "scarp/core/precompiled.hpp"
@@ -51,13 +50,13 @@ SCARP_EXPORT VoigtTangent<3> isotropic_derivative(Tensor<3> const& of_values, Ve
                                                   Vector<3> const& value, Tensor<3> const& directions);
 
 /// Largest magnitude of a symmetric tensor's principal values: the same in whatever axes it is given. NaN in gives NaN
-/// out. In the plane by Mohr's circle, in space by the cosine formula of the characteristic cubic (Smith 1961).
+/// out, beside an infinity that. In the plane by Mohr's circle, in space by the cosine formula of the characteristic
+/// cubic (Smith 1961).
 template <int Dim>
 double largest_principal(Tensor<Dim> const& symmetric) {
   static_assert(Dim == 2 || Dim == 3);
   double const mean = symmetric.trace() / Dim;
   if constexpr (Dim == 2) {
-    if (symmetric.hasNaN()) return std::numeric_limits<double>::quiet_NaN();  // which std::hypot leaves out by infinity
     return std::abs(mean) + std::hypot((symmetric(0, 0) - symmetric(1, 1)) / 2.0, symmetric(0, 1));
   } else {
     Tensor<3> const deviator = symmetric - mean * Tensor<3>::Identity();
