@@ -163,9 +163,6 @@ class SCARP_EXPORT Model {
   Problem<Dim> problem(Executor& executor) const;
 
  private:
-  void require_level_top() const {
-    if (!level_) detail::GroundTop<Dim>(*grid_, surface_level()).require_level();
-  }
   void require_not_at_rest() const {
     if (is_at_rest_)
       reject("weight or surcharge are given after the stress at rest was taken: give them before, or an amplitude");
@@ -203,8 +200,8 @@ std::vector<Site<Dim>> Model<Dim>::sites(std::string_view region) const {
 
 template <int Dim>
 GeostaticStress<Dim> Model<Dim>::geostatic(double k0, std::string_view region) const {
-  require_level_top();
   detail::GroundTop<Dim> const top(*grid_, surface_level());
+  if (!level_) top.require_level();
   double const weight = top.weight(weights_, region);
   double const surcharge = top.surcharge(surcharges_);
   is_at_rest_ = true;
@@ -213,7 +210,7 @@ GeostaticStress<Dim> Model<Dim>::geostatic(double k0, std::string_view region) c
 
 template <int Dim>
 std::vector<double> Model<Dim>::depths(std::string_view region) const {
-  require_level_top();
+  if (!level_) detail::GroundTop<Dim>(*grid_, surface_level()).require_level();
   std::vector<double> found;
   for (auto const& site : sites(region)) found.push_back(site.depth);
   return found;

@@ -78,8 +78,8 @@ class GroundTop {
     for (std::size_t n = 0; n < is_pressed.size(); ++n) {
       if (!is_pressed[n] && is_top(grid_.nodes()[n]))
         reject(
-            "the stress at rest is requested below a surcharge on a part of the surface (there is none at ({})): give "
-            "it an amplitude that begins when the ground is at rest",
+            "the surcharge is on a part of the surface (not at ({}); the stress at rest is that below a uniform one): "
+            "give it an amplitude that begins at the load factor 1",
             listed(grid_.nodes()[n]));
     }
     return surcharge;
