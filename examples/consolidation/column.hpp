@@ -67,7 +67,7 @@ template <class Element, class Motion = scarp::SmallStrain>
 ColumnRun consolidate(Column const& column) {
   using namespace scarp;
   double const width = 1.0 / column.rows;
-  Discretisation<Element, Motion, DefaultIntegration<Element>> const grid(
+  Discretisation<Element, Motion> const grid(
       BoxMesh<Element>{.lengths = Vector<2>(width, 1.0), .cells = {1, column.rows}}.generate());
   Clock clock(column.first / column.consolidation());
   std::vector<double> ends;

@@ -27,7 +27,7 @@ using scarp::Quad8;
 using scarp::TimeFunction;
 
 template <class Element, class Motion = scarp::SmallStrain>
-using Ground = scarp::Discretisation<Element, Motion, scarp::DefaultIntegration<Element>>;
+using Ground = scarp::Discretisation<Element, Motion>;
 
 constexpr double mobility = 1e-9;  // [m2/(Pa s)]
 

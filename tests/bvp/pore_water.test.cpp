@@ -36,7 +36,7 @@ constexpr double young = 1e7, poisson = 0.25, shear = young / 2.5, lame = 2.0 * 
 constexpr double width = 0.5, height = 1.0, load = 10.0;  // [m, m, Pa]
 
 template <class Element, class Motion = scarp::SmallStrain>
-using Ground = scarp::Discretisation<Element, Motion, scarp::DefaultIntegration<Element>>;
+using Ground = scarp::Discretisation<Element, Motion>;
 
 template <class Element, class Motion = scarp::SmallStrain>
 Ground<Element, Motion> column_grid() {
@@ -500,7 +500,7 @@ TEST_CASE("pore water without sense is refused") {
   Ground<Quad8> const turned(scarp::BoxMesh<Quad8>{.lengths = Vector<2>(width, height), .cells = {4, 2}}.generate());
   REQUIRE(turned.dof_count() == grid.dof_count());
   CHECK_REFUSED(column(turned, water).problem(serial), "other elements or another mesh");
-  using Reduced = scarp::Discretisation<Quad8, scarp::UpdatedLagrangian, scarp::DefaultIntegration<Quad8>>;
+  using Reduced = scarp::Discretisation<Quad8, scarp::UpdatedLagrangian>;
   scarp::Model<2> moving(Reduced(grid.mesh()));
   moving.material("soil", scarp::LinearElastic<2>::from_young_poisson(young, poisson));
   moving.attach(water);

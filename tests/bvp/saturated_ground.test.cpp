@@ -31,7 +31,7 @@ using scarp::Tri6;
 using scarp::Vector;
 
 template <class Element, class Motion = scarp::SmallStrain>
-using Ground = scarp::Discretisation<Element, Motion, scarp::DefaultIntegration<Element>>;
+using Ground = scarp::Discretisation<Element, Motion>;
 
 constexpr scarp::Water incompressible{.bulk_modulus = std::numeric_limits<double>::infinity()};
 

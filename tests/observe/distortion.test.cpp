@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "scarp/bvp/default_integration.hpp"
 #include "scarp/bvp/discretisation.hpp"
 #include "scarp/element/quad4.hpp"
 #include "scarp/element/quad8.hpp"
@@ -22,7 +21,7 @@ using samples::Approx;
 using scarp::Vector;
 
 auto unit_squares() {
-  return scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::DefaultIntegration<scarp::Quad4>>(
+  return scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian>(
       scarp::BoxMesh<scarp::Quad4>{.lengths = {2.0, 1.0}, .cells = {2, 1}}.generate());
 }
 
@@ -47,7 +46,7 @@ TEST_CASE_TEMPLATE("elements of a regular mesh have the mean ratio of their line
                    scarp::Quad8) {
   using Linear = typename Element::Linear;
   auto const ratio_of = []<class Cell>(scarp::BoxMesh<Cell> const& mesh) {
-    scarp::Discretisation<Cell, scarp::UpdatedLagrangian, scarp::DefaultIntegration<Cell>> const grid(mesh.generate());
+    scarp::Discretisation<Cell, scarp::UpdatedLagrangian> const grid(mesh.generate());
     return scarp::largest_distortion(grid).mean_ratio;
   };
   CHECK(ratio_of(scarp::BoxMesh<Element>{.cells = {2, 2}}) ==

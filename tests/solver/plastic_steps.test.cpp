@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "bvp/sample_problems.hpp"
-#include "scarp/bvp/default_integration.hpp"
 #include "scarp/constitutive/mohr_coulomb.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/load_stepping.hpp"
@@ -21,7 +20,7 @@ scarp::MohrCoulomb<Dim> clayey_sand(double young = 1e7) {
 }
 
 template <class Element>
-using Grid = scarp::Discretisation<Element, scarp::SmallStrain, scarp::DefaultIntegration<Element>>;
+using Grid = scarp::Discretisation<Element, scarp::SmallStrain>;
 
 template <class Element>
 using Problem = scarp::EquilibriumProblem<Grid<Element>>;

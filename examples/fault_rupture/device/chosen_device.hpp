@@ -3,10 +3,11 @@
 
 #include <cstddef>
 
-#include "../../shared/study/choice.hpp"
 #include "../../shared/study/to_device.hpp"
 
 namespace fault_rupture {
+
+struct Choice;
 
 /// Puts the packings of so many points on the chosen device, before they are prepared; one of two sources defines it.
 /// \throws scarp::InputError for a device that this program or this machine does not have, or without room for them

@@ -51,9 +51,12 @@ struct IsotropicElasticity {
   template <int Dim>
   VoigtTangent<Dim> stiffness() const {
     VoigtTangent<Dim> stiffness = VoigtTangent<Dim>::Zero();
-    stiffness.diagonal().setConstant(shear_modulus);
-    stiffness.template topLeftCorner<Dim, Dim>().diagonal().setConstant(2.0 * shear_modulus);
-    stiffness.template topLeftCorner<Dim, Dim>().array() += lame_lambda;
+    for (int k = 0; k < voigt_size<Dim>; ++k) {
+      stiffness(k, k) = k < Dim ? 2.0 * shear_modulus : shear_modulus;
+      if (k < Dim) {
+        for (int l = 0; l < Dim; ++l) stiffness(k, l) += lame_lambda;
+      }
+    }
     return stiffness;
   }
 
@@ -117,8 +120,7 @@ struct LinearElastic {
     if (!moved.verdict.acceptable()) return {committed.stress, moved.verdict};
     Tensor<Dim> const unturned =
         from_voigt_stress<Dim, double>(committed.stress) + elasticity.stress<Dim>(moved.strain);
-    Tensor<Dim> const turned = moved.turn * unturned * moved.turn.transpose();
-    VoigtStress<Dim> const result = to_voigt_stress<Dim, double>(turned);
+    VoigtStress<Dim> const result = to_voigt_stress<Dim, double>(turned<Dim>(moved.turn, unturned));
     if (!result.allFinite()) {
       return {committed.stress, {Status::failed, Reason::not_finite}};
     }

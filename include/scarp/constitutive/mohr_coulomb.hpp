@@ -97,8 +97,8 @@ struct MohrCoulomb {
     if (!returned.found) return {stress(committed), {Status::failed, Reason::no_return}};
     if constexpr (StrengthType::changes) soften_tangent(returned, outer.values, plastic_shear);
     Tensor<3> const directions = turn * outer.directions;
-    Tensor<3> const turned = directions * returned.stress.asDiagonal() * directions.transpose();
-    trial.stress = to_voigt_stress<3, double>(turned);
+    Tensor<3> const principal_stress = returned.stress.asDiagonal();
+    trial.stress = to_voigt_stress<3, double>(turned<3>(directions, principal_stress));
     trial.plastic_shear = plastic_shear;
     trial.tangent = tangent_of(returned, outer.values, directions);
     return {stress(trial), {}};

@@ -182,7 +182,7 @@ struct UmatProvider {
     Tensor<3> const strain = in_space<Dim>(moved.strain, 0.0), turn = in_space<Dim>(moved.turn, 1.0);
     State next = committed;
     next.deformation = deformation * committed.deformation;
-    Verdict const verdict = call(next, committed.deformation, turn, turn * strain * turn.transpose());
+    Verdict const verdict = call(next, committed.deformation, turn, turned<3>(turn, strain));
     if (!verdict.acceptable()) return {stress(committed), verdict};
     if (next.tangent.isZero(0.0) && !next.stress.isZero(0.0))
       reject(
@@ -211,15 +211,15 @@ struct UmatProvider {
   /// acceptable
   /// strain: of the increment, in axes that turn with it
   Verdict call(State& state, Tensor<3> const& before, Tensor<3> const& turn, Tensor<3> const& strain) const {
-    Tensor<3> const turned = turn * from_voigt_stress<3, double>(state.stress) * turn.transpose();
+    Tensor<3> const start = turned<3>(turn, from_voigt_stress<3, double>(state.stress));
     Tensor<3> half = from_voigt_stress<3, double>(state.strain);  // its shear is that of engineering
     half += half.diagonal().asDiagonal();
-    Tensor<3> const total = turn * half * turn.transpose() / 2.0;
+    Tensor<3> const total = turned<3>(turn, half) / 2.0;
     auto const size = detail::index(components);
     detail::FencedNumbers stress(size), statev(state.variables.size()), ddsdde(size * size), props(properties.size());
     detail::FencedNumbers stran(size), dstran(size), ddsddt(size), drplde(size);
     detail::FencedNumbers time(2), predef(1), dpred(1), coords(3), drot(9), dfgrd0(9), dfgrd1(9);
-    copy(to_voigt_stress<3, double>(turned), stress.data());
+    copy(to_voigt_stress<3, double>(start), stress.data());
     std::copy(state.variables.begin(), state.variables.end(), statev.data());
     std::copy(properties.begin(), properties.end(), props.data());
     copy(to_engineering_strain<3, double>(total), stran.data());

@@ -9,6 +9,7 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/tensor/finite_strain.hpp"
 #include "scarp/tensor/principal.hpp"
 #include "scarp/tensor/voigt.hpp"
 
@@ -28,8 +29,8 @@ Vector<Dim> principal_direction(VoigtStress<Dim> const& stress) {
 /// Stress [Pa] in the mirror across a plane with a normal of length 1.
 template <int Dim>
 VoigtStress<Dim> mirrored_stress(VoigtStress<Dim> const& stress, Vector<Dim> const& normal) {
-  Tensor<Dim> const mirror = reflection<Dim>(normal);
-  return to_voigt_stress<Dim, double>(mirror * from_voigt_stress<Dim, double>(stress) * mirror);
+  Tensor<Dim> const whole = from_voigt_stress<Dim, double>(stress);
+  return to_voigt_stress<Dim, double>(turned<Dim>(reflection<Dim>(normal), whole));
 }
 
 /// Mirrors the members of a state by their types: stresses, tangents, tensors of rank two and packings (see
@@ -52,7 +53,7 @@ struct Mirror {
       in_space.head<Dim>() = normal;
       value = mirrored_stress<3>(value, in_space);
     } else if constexpr (std::same_as<T, Tensor<Dim>>) {
-      value = (reflection<Dim>(normal) * value * reflection<Dim>(normal)).eval();
+      value = turned<Dim>(reflection<Dim>(normal), value);
     } else if constexpr (std::same_as<T, VoigtTangent<Dim>>) {
       for (int k = 0; k < value.cols(); ++k) value.col(k) = mirrored_stress<Dim>(value.col(k), normal);
       for (int k = 0; k < value.rows(); ++k)

@@ -182,8 +182,8 @@ class PointMeans {
     double const faded = 1.0 + size / fading_[k];
     Tensor<Dim> const turn = rotation_factor<Dim, double>(Tensor<Dim>::Identity() + mean);
     VoigtStress<Dim> const whole = tau_[k] + stiffness_[k] * to_engineering_strain<Dim, double>(fluctuation);
-    Tensor<Dim> const turned = turn * from_voigt_stress<Dim, double>(whole) * turn.transpose() / faded;
-    trial_[k] = to_voigt_stress<Dim, double>(turned);
+    Tensor<Dim> const held = turned<Dim>(turn, from_voigt_stress<Dim, double>(whole)) / faded;
+    trial_[k] = to_voigt_stress<Dim, double>(held);
     by_own_[k] = stiffness_[k] / faded;
     by_mean_[k] = -by_own_[k];
     if (size > 0.0) {

@@ -4,6 +4,8 @@
 #include "scarp/tensor/principal.hpp"
 
 namespace scarp {
+template Tensor<2> turned(Tensor<2> const&, Tensor<2> const&);
+template Tensor<3> turned(Tensor<3> const&, Tensor<3> const&);
 template struct RotatedIncrement<2>;
 template struct RotatedIncrement<3>;
 }  // namespace scarp

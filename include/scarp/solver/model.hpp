@@ -139,7 +139,9 @@ class SCARP_EXPORT Model {
   void surcharge(Names sides, double pressure, std::optional<TimeFunction> const& amplitude = {}) {
     if (!amplitude) require_not_at_rest();
     require_finite("surcharge", pressure);
-    traction(sides, -pressure * Vector<dim>::Unit(dim - 1), amplitude);
+    Vector<dim> downwards = Vector<dim>::Zero();
+    downwards(dim - 1) = -pressure;
+    traction(sides, downwards, amplitude);
     if (amplitude) return;
     for (auto const side : sides) surcharges_[std::string(side)] += pressure;
   }

@@ -35,6 +35,12 @@ Tensor<Dim, Scalar> rotation_factor(Tensor<Dim, Scalar> const& deformation) {
   return turn;
 }
 
+/// \f$ R\,T\,R^T \f$: a tensor turned by a rotation or mirrored by a reflection R.
+template <int Dim>
+Tensor<Dim> turned(Tensor<Dim> const& turn, Tensor<Dim> const& tensor) {
+  return turn * tensor * turn.transpose();
+}
+
 /// An increment of displacement as a stretch and a rotation after it, I + gradient = R U.
 /// \f$ E = 2 (U - I)(U + I)^{-1} \f$ is the strain of the stretch with respect to its half-way configuration; it
 /// differs from ln U by E^3/12, so a large increment and the same one in many parts agree to second order.
@@ -66,6 +72,8 @@ RotatedIncrement<Dim>::RotatedIncrement(Gradient<Dim> const& gradient) {
 }
 
 #ifdef SCARP_PRECOMPILED
+extern template SCARP_EXPORT Tensor<2> turned(Tensor<2> const&, Tensor<2> const&);
+extern template SCARP_EXPORT Tensor<3> turned(Tensor<3> const&, Tensor<3> const&);
 extern template struct RotatedIncrement<2>;
 extern template struct RotatedIncrement<3>;
 #endif

@@ -73,7 +73,11 @@ Tensor<2, Scalar> rotation(Scalar angle) {
 /// \f$ I - 2 n \otimes n \f$: the mirror across a plane with the normal n, of length 1.
 template <int Dim>
 Tensor<Dim> reflection(Vector<Dim> const& normal) {
-  return Tensor<Dim>::Identity() - 2.0 * normal * normal.transpose();
+  Tensor<Dim> mirror;
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) mirror(i, j) = (i == j ? 1.0 : 0.0) - 2.0 * normal(i) * normal(j);
+  }
+  return mirror;
 }
 
 }  // namespace scarp

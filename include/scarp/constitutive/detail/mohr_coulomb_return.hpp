@@ -5,10 +5,10 @@
 #include "scarp/core/precompiled.hpp"
 #include "scarp/tensor/tensor.hpp"
 #ifdef SCARP_DEFINITIONS
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -74,9 +74,8 @@ class MohrCoulombReturn {
     double const size = std::max(trial.cwiseAbs().maxCoeff(), plane(0).limit);
     double const slack = 1e-12 * size;
     if (excess(trial) <= 0.0) return {trial, Vector<3>::Zero(), elastic_stiffness(), 0, true};
-    auto found = with_planes<1>(trial, slack);
-    if (!found.found) found = with_planes<2>(trial, slack);
-    if (!found.found) found = with_planes<3>(trial, slack);
+    PrincipalReturn found;
+    for (int count = 1; count <= 3 && !found.found; ++count) found = with_planes(count, trial, slack, {});
     // All planes meet at the apex, also where fewer of them lead there: no strain changes the stress.
     if (found.found && found.stress.minCoeff() >= cut_off_ - slack) found.tangent.setZero();
     return found;
@@ -108,24 +107,21 @@ class MohrCoulombReturn {
     return stiffness;
   }
 
-  /// The first return with so many active planes, of which the first `chosen` are given and the others numbered from
+  /// The first return with `count` active planes, of which the first `chosen` are given and the others numbered from
   /// `next`.
-  template <int Count>
-  PrincipalReturn with_planes(Vector<3> const& trial, double slack, std::array<int, detail::index(Count)> active = {},
+  PrincipalReturn with_planes(int count, Vector<3> const& trial, double slack, std::array<int, 3> active,
                               int chosen = 0, int next = 0) const {
-    if (chosen == Count) return attempt<Count>(active, trial, slack);
+    if (chosen == count) return attempt(count, active, trial, slack);
     for (; next < count_; ++next) {
       active[detail::index(chosen)] = next;
-      auto const found = with_planes<Count>(trial, slack, active, chosen + 1, next + 1);
+      auto const found = with_planes(count, trial, slack, active, chosen + 1, next + 1);
       if (found.found) return found;
     }
     return {};
   }
 
   /// With exactly these planes active.
-  template <int Count>
-  PrincipalReturn attempt(std::array<int, detail::index(Count)> const& active, Vector<3> const& trial,
-                          double slack) const;
+  PrincipalReturn attempt(int count, std::array<int, 3> const& active, Vector<3> const& trial, double slack) const;
 
   double lame_lambda_;    // [Pa]
   double twice_shear_;    // [Pa]
@@ -135,43 +131,114 @@ class MohrCoulombReturn {
   int count_ = 0;
 };
 
+/// A system of at most four equations. Loops over it compile in a fifth of the time of Eigen's fixed sizes.
+using SmallMatrix = std::array<std::array<double, 4>, 4>;
+using SmallVector = std::array<double, 4>;
+
+/// Inverse of the first `size` rows and columns by elimination with partial pivoting; returns the determinant, and where
+/// that is zero no inverse.
+SCARP_DEFINITIONS double invert(SmallMatrix matrix, std::size_t size, SmallMatrix& inverse) {
+  inverse = {};
+  for (std::size_t i = 0; i < size; ++i) inverse[i][i] = 1.0;
+  double determinant = 1.0;
+  for (std::size_t column = 0; column < size; ++column) {
+    std::size_t largest = column;
+    for (std::size_t row = column + 1; row < size; ++row) {
+      if (std::abs(matrix[row][column]) > std::abs(matrix[largest][column])) largest = row;
+    }
+    double const pivot = matrix[largest][column];
+    determinant *= largest == column ? pivot : -pivot;
+    if (pivot == 0.0) return 0.0;
+    std::swap(matrix[column], matrix[largest]);
+    std::swap(inverse[column], inverse[largest]);
+    for (std::size_t j = 0; j < size; ++j) {
+      matrix[column][j] /= pivot;
+      inverse[column][j] /= pivot;
+    }
+    for (std::size_t row = 0; row < size; ++row) {
+      if (row == column) continue;
+      double const factor = matrix[row][column];
+      for (std::size_t j = 0; j < size; ++j) {
+        matrix[row][j] -= factor * matrix[column][j];
+        inverse[row][j] -= factor * inverse[column][j];
+      }
+    }
+  }
+  return determinant;
+}
+
+/// matrix * vector
+SCARP_DEFINITIONS SmallVector product(SmallMatrix const& matrix, SmallVector const& vector, std::size_t size) {
+  SmallVector sums{};
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) sums[i] += matrix[i][j] * vector[j];
+  }
+  return sums;
+}
+
 /// Multipliers \f$ \mu = 2G\lambda \f$ and the mean stress \f$ p = \kappa\,1\cdot R\mu,\; \kappa = \lambda_L/2G \f$,
 /// that plastic flow R subtracts, are unknowns of one system: however large kappa is near incompressibility, nothing
 /// large is subtracted,
 /// \f$ N^T R\mu + N^T 1\,p = f^{tr},\; \kappa\,1^T R\mu - p = 0 \f$, the second row divided by 1 + |kappa|.
-template <int Count>
-PrincipalReturn MohrCoulombReturn::attempt(std::array<int, detail::index(Count)> const& active, Vector<3> const& trial,
-                                           double slack) const {
-  Eigen::Matrix<double, 3, Count> normals;
-  Eigen::Matrix<double, 3, Count + 1> flows;  // the last one a unit of mean stress
-  Eigen::Matrix<double, Count + 1, 1> over;
-  for (int k = 0; k < Count; ++k) {
-    auto const& chosen = plane(active[detail::index(k)]);
-    normals.col(k) = chosen.normal;
-    flows.col(k) = chosen.flow;
-    over(k) = chosen.normal.dot(trial) - chosen.limit;
-  }
-  flows.col(Count).setOnes();
-  over(Count) = 0.0;
+SCARP_DEFINITIONS PrincipalReturn MohrCoulombReturn::attempt(int count, std::array<int, 3> const& active,
+                                                             Vector<3> const& trial, double slack) const {
+  auto const planes = detail::index(count);
+  std::size_t const unknowns = planes + 1;
   double const part = bulk_ratio_ / (1.0 + std::abs(bulk_ratio_));
-  Eigen::Matrix<double, Count + 1, 3> rows;
-  rows.template topRows<Count>() = normals.transpose();
-  rows.row(Count).setConstant(part);
-  Eigen::Matrix<double, Count + 1, Count + 1> system = rows * flows;
-  system(Count, Count) = -1.0 / (1.0 + std::abs(bulk_ratio_));
+  std::array<Vector<3>, 4> rows;
+  std::array<Vector<3>, 4> flows;  // the last one a unit of mean stress
+  SmallVector over{};
+  for (std::size_t k = 0; k < planes; ++k) {
+    auto const& chosen = plane(active[k]);
+    rows[k] = chosen.normal;
+    flows[k] = chosen.flow;
+    over[k] = chosen.normal.dot(trial) - chosen.limit;
+  }
+  rows[planes].setConstant(part);
+  flows[planes].setConstant(1.0);
+  SmallMatrix system{};
+  double norms = 1.0;
+  for (std::size_t k = 0; k < unknowns; ++k) {
+    for (std::size_t l = 0; l < unknowns; ++l) system[k][l] = rows[k].dot(flows[l]);
+    if (k == planes) system[k][k] = -1.0 / (1.0 + std::abs(bulk_ratio_));
+    double squares = 0.0;
+    for (double const entry : system[k]) squares += entry * entry;
+    norms *= std::sqrt(squares);
+  }
   // Planes whose flows oppose one plastic strain only, such as all three of a frictionless prism, are no corner.
-  if (!(std::abs(system.determinant()) > 1e-10 * system.rowwise().norm().prod())) return {};
-  auto const inverse = system.inverse().eval();
-  Eigen::Matrix<double, Count + 1, 1> solution = inverse * over;
-  solution += inverse * (over - system * solution);  // planes of much friction are nearly parallel
-  if (!(solution.template head<Count>().minCoeff() >= -slack)) return {};
+  SmallMatrix inverse;
+  if (!(std::abs(invert(system, unknowns, inverse)) > 1e-10 * norms)) return {};
+  auto solution = product(inverse, over, unknowns);
+  // Planes of much friction are nearly parallel.
+  auto rest = product(system, solution, unknowns);
+  for (std::size_t k = 0; k < unknowns; ++k) rest[k] = over[k] - rest[k];
+  auto const correction = product(inverse, rest, unknowns);
+  for (std::size_t k = 0; k < unknowns; ++k) solution[k] += correction[k];
+  for (std::size_t k = 0; k < planes; ++k) {
+    if (!(solution[k] >= -slack)) return {};
+  }
   PrincipalReturn result;
-  result.plastic_strain = flows.template leftCols<Count>() * solution.template head<Count>() / twice_shear_;
-  result.stress = trial - flows * solution;
+  result.stress = trial;
+  SmallMatrix carried{};  // unknowns for units of strain
+  for (int j = 0; j < 3; ++j) {
+    SmallVector strain{};
+    for (std::size_t l = 0; l < unknowns; ++l) strain[l] = rows[l](j);
+    carried[detail::index(j)] = product(inverse, strain, unknowns);
+  }
+  for (int i = 0; i < 3; ++i) {
+    double flow = 0.0;
+    for (std::size_t k = 0; k < planes; ++k) flow += flows[k](i) * solution[k];
+    result.plastic_strain(i) = flow / twice_shear_;
+    result.stress(i) -= flow + solution[planes];
+    // Of a strain the unknowns are the multipliers and the change of the mean stress itself, with the other sign.
+    for (int j = 0; j < 3; ++j) {
+      double change = i == j ? 1.0 : 0.0;
+      for (std::size_t k = 0; k < unknowns; ++k) change -= flows[k](i) * carried[detail::index(j)][k];
+      result.tangent(i, j) = twice_shear_ * change;
+    }
+  }
   if (!(excess(result.stress) <= slack)) return {};
-  // Of a strain the unknowns are the multipliers and the change of the mean stress itself, with the other sign.
-  result.tangent = twice_shear_ * (Tensor<3>::Identity() - flows * inverse * rows);
-  result.planes = Count;
+  result.planes = count;
   result.found = true;
   return result;
 }
