@@ -4,6 +4,10 @@
 
 #include <dlfcn.h>
 
+#include <filesystem>
+#include <map>
+#include <mutex>
+
 namespace python_points {
 
 namespace {
@@ -24,10 +28,21 @@ Material<Dim> material_of(std::string const& kind, std::string_view bits, Prepar
 scarp::Umat* umat_in(std::string const& file) {
   if (file.empty()) scarp::reject("a UMAT has no file (a shared library is expected): give it, file='soil.so'");
   // With a slash the loader searches no folders of its own.
-  void* const library = dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
+  auto const path = std::filesystem::absolute(file);
+  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library)
     scarp::reject("the library of a UMAT does not load ({}): compile it, gfortran -O2 -shared -fPIC soil.f -o soil.so",
                   dlerror());
+  // The loader gives the library that it has under this name, whatever has become of the file.
+  static std::mutex mutex;
+  static std::map<std::filesystem::path, std::filesystem::file_time_type> loaded;
+  std::scoped_lock const lock(mutex);
+  auto const written = std::filesystem::last_write_time(path);
+  if (loaded.try_emplace(path, written).first->second != written)
+    scarp::reject(
+        "'{}' was compiled anew since it was loaded (the loader keeps the old one): start Python anew, or give it "
+        "another name",
+        file);
   void* const symbol = dlsym(library, "umat_");
   if (!symbol)
     scarp::reject("'{}' has no UMAT (the symbol umat_ is expected): name the subroutine UMAT, in C umat_", file);

@@ -88,7 +88,10 @@ struct Umat {
   double k0 = 1.0;
   SCARP_MEMBERS(file, name, properties, variables, time_step, components, surcharge, unit_weight, k0)
 
-  void prepare(int, Progress const&) {}
+  /// States keep the path as it was found here.
+  void prepare(int, Progress const&) {
+    if (!file.empty()) file = std::filesystem::absolute(file).string();
+  }
   /// \throws InputError for a library that cannot be loaded or has no UMAT
   auto provider() const {
     using Ground = scarp::GeostaticStress<Dim>;
@@ -108,7 +111,24 @@ struct StartPackings {
   std::variant<scarp::RandomChoice<scarp::SamePacking<Packing>>, scarp::PackingsByDepth<Packing>> of{};
 
   Packing const& at(scarp::Site<Packing::dim> const& site) const {
-    return std::visit([&](auto const& source) -> Packing const& { return source.at(site); }, of);
+    return std::visit(
+        [&](auto const& source) -> Packing const& {
+          Packing const& packing = source.at(site);
+          if constexpr (requires { source.depths; }) require_made_for(source.depths, site);
+          return packing;
+        },
+        of);
+  }
+
+ private:
+  static void require_made_for(std::vector<double> const& depths, scarp::Site<Packing::dim> const& site) {
+    double const allowed = 1e-6 * (1.0 + site.depth);  // [m], more than what depths of one packing differ by
+    if (std::ranges::any_of(depths, [&](double depth) { return std::abs(depth - site.depth) <= allowed; })) return;
+    scarp::reject(
+        "point {} is {:.6g} m deep (the ground has no packing of that depth; it has some from {:.6g} to {:.6g} m): "
+        "make it with "
+        "depths=model.depths(), after set_surface_level",
+        site.index, site.depth, depths.front(), depths.back());
   }
 };
 

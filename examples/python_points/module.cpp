@@ -112,6 +112,7 @@ int whole_number(py::object const& given, char const* what) {
 template <int Dim>
 Material<Dim> made(std::string const& kind, py::dict keywords) {
   py::object const progress = keywords.attr("pop")("progress", py::none());
+  bool const has_threads = keywords.contains("threads");
   py::object const wanted = keywords.attr("pop")("threads", 1);
   int const threads = whole_number(wanted, "threads");
   std::string const bits = with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
@@ -119,7 +120,11 @@ Material<Dim> made(std::string const& kind, py::dict keywords) {
     std::set<std::string> given;
     for (auto const& [name, value] : keywords) given.insert(name.template cast<std::string>());
     take_keywords(keywords, recipe);
-    if constexpr (requires { recipe.complete(given); }) recipe.complete(given);
+    if constexpr (requires { recipe.complete(given); }) {
+      recipe.complete(given);
+    } else if (has_threads) {
+      scarp::reject("threads is given (discs, ellipses and spheres prepare their packings by several): leave it out");
+    }
     return bits_of(recipe);
   });
   auto const tell = [&](int done, int total, std::string const& text) {
@@ -199,7 +204,7 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
            "yy, xy or xx, yy, zz, yz, zx, xy.")
       .def("commit", &All::commit, "Keeps the last response.")
       .def(
-          "discard", [](All& self) { self.now().discard(); }, "Lets the next response plan its work anew.")
+          "discard", [](All& self) { self.discard(); }, "Lets the next response plan its work anew.")
       .def(
           "report",
           [](All& self) {

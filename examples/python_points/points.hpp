@@ -65,6 +65,11 @@ class Points {
     report_ = work(points_, *team_);
   }
 
+  void discard() {
+    now().discard();
+    report_ = {};
+  }
+
   /// \throws InputError for states that must not be kept
   void commit() {
     auto& points = now();

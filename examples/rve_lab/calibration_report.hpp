@@ -68,7 +68,8 @@ class CalibrationReport {
     if (!effort_.reasons.empty())
       examples::print(stdout, "{} of {} evaluations were infeasible, the first: {}\n", effort_.reasons.size(),
                       effort_.evaluations, effort_.reasons.front());
-    if (!other_.feasible()) examples::print(stdout, "infeasible on other seeds: {}\n", other_.reason);
+    if (!other_.feasible())
+      examples::print(stderr, "warning: the best sand is infeasible on seeds that were not used: {}\n", other_.reason);
     for (auto const& line : parameter_lines()) examples::print(stdout, "{}\n", line);
     for_each_target([](Observation const& one, double value, double scatter, double other, double other_scatter) {
       examples::print(stdout, "{} {:.5g} +- {:.2g} where {:.5g} is wanted; {:.5g} +- {:.2g} on other seeds\n", one.name,
@@ -131,8 +132,9 @@ class CalibrationReport {
   void warn_of_no_peak() const {
     auto const peak = std::ranges::find_if(calibration_.observations,
                                            [](Observation const& one) { return one.name.starts_with("peak-"); });
-    if (peak == calibration_.observations.end() || other_.mean.rows.empty()) return;
-    if (laboratory_results<2>(other_.mean.rows, calibration_.window).rises)
+    auto const& rows = other_.mean.rows.empty() ? best_.mean.rows : other_.mean.rows;
+    if (peak == calibration_.observations.end() || rows.empty()) return;
+    if (laboratory_results<2>(rows, calibration_.window).rises)
       examples::print(stderr,
                       "warning: the stress ratio rises to the end of the tests, so that {} is not that of a peak: give "
                       "a larger --strain\n",

@@ -16,7 +16,8 @@
 namespace rve_lab {
 
 /// A table of a test in the laboratory, compression positive, with strains of 1 and stresses of Pa or, where their names say so, of per cent
-/// and kPa: axial_strain and volumetric_strain (or eps1 and epsv) and stress_ratio (q/p), or q and p. Columns of path.csv will do.
+/// and kPa: axial_strain and volumetric_strain (or eps1 and epsv) and stress_ratio (q/p), or q and p. Columns of path.csv will do. Strains
+/// are logarithmic; those over initial lengths and volumes have names that begin with engineering_.
 struct LabTable {
   std::string file;
   std::vector<double> strain;
@@ -31,15 +32,23 @@ struct LabTable {
   /// \throws InputError for columns that are missing, and for values that no test has, with what they may be instead
   static LabTable read(std::string const& file, bool triaxial, bool holds_p) {
     auto const table = scarp::read_csv(file);
-    LabTable lab{
-        .file = file,
-        .strain = needed(table, "axial strain",
-                         {{"axial_strain"}, {"axial_strain_percent", 0.01}, {"eps1"}, {"eps1_percent", 0.01}})};
+    LabTable lab{.file = file,
+                 .strain = needed(table, "axial strain",
+                                  {{"axial_strain"},
+                                   {"axial_strain_percent", 0.01},
+                                   {"eps1"},
+                                   {"eps1_percent", 0.01},
+                                   {"engineering_axial_strain"},
+                                   {"engineering_axial_strain_percent", 0.01}})};
     if (lab.strain.size() < 3)
       scarp::reject("'{}' has {} rows (three at least make a curve): complete it", file, lab.strain.size());
     lab.sine_strain = lab.strain;
-    lab.volumetric =
-        found(table, {{"volumetric_strain"}, {"volumetric_strain_percent", 0.01}, {"epsv"}, {"epsv_percent", 0.01}});
+    lab.volumetric = found(table, {{"volumetric_strain"},
+                                   {"volumetric_strain_percent", 0.01},
+                                   {"epsv"},
+                                   {"epsv_percent", 0.01},
+                                   {"engineering_volumetric_strain"},
+                                   {"engineering_volumetric_strain_percent", 0.01}});
     if (lab.volumetric.empty()) reject_other_volume(table);
     lab.sine = found(table, {{"stress_ratio"}});
     lab.has_ratio = !lab.sine.empty();
@@ -123,7 +132,16 @@ struct LabTable {
     for (auto const& [name, unit] : names) {
       if (!table.has(name)) continue;
       auto values = table.column<double>(name);
-      for (double& value : values) value *= unit;
+      for (std::size_t row = 0; row < values.size(); ++row) {
+        double& value = values[row];
+        value *= unit;
+        if (!std::string_view(name).starts_with("engineering_")) continue;
+        if (!(value < 1.0))
+          scarp::reject(
+              "line {} of '{}': {} is {} (below 1 is possible): name its column {}_percent where it is in per cent",
+              table.line(row), table.file(), name, value, name);
+        value = -std::log1p(-value);
+      }
       return values;
     }
     return {};

@@ -10,9 +10,11 @@ from scarp_figures import BLACK, BLUE, GREEN, GREY, ORANGE, PALE, PURPLE, SKY, V
 
 COLOURS = (VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 # Quantities by the names of a laboratory's columns, their factor to per cent, kPa and one.
-AXIAL = {"axial_strain": 100.0, "axial_strain_percent": 1.0, "eps1_percent": 1.0, "eps1": 100.0}
+AXIAL = {"axial_strain": 100.0, "axial_strain_percent": 1.0, "eps1_percent": 1.0, "eps1": 100.0, "engineering_axial_strain": 100.0,
+         "engineering_axial_strain_percent": 1.0}
 NAMES = {"strain": {"length": 100.0, **AXIAL, "gamma_percent": 1.0},
-         "volume": {"volumetric_strain": 100.0, "volumetric_strain_percent": 1.0, "epsv_percent": 1.0, "epsv": 100.0},
+         "volume": {"volumetric_strain": 100.0, "volumetric_strain_percent": 1.0, "epsv_percent": 1.0, "epsv": 100.0,
+                    "engineering_volumetric_strain": 100.0, "engineering_volumetric_strain_percent": 1.0},
          "q": {"q": 1e-3, "q_kPa": 1.0}, "p": {"p": 1e-3, "p_kPa": 1.0},
          "axial": {"axial_stress": 1e-3, "sigma1_kPa": 1.0, "sig1_kPa": 1.0},
          "lateral": {"lateral_stress": 1e-3, "sigma3_kPa": 1.0, "sig3_kPa": 1.0}, "void_ratio": {"void_ratio": 1.0, "e": 1.0}}
@@ -43,6 +45,8 @@ def read_curves(path, by_axial_strain=False):
         names = {**AXIAL, **names} if quantity == "strain" and by_axial_strain else names
         name = next((name for name in names if name in table), None)
         curve[quantity] = table[name] * names[name] if name else np.full(count, np.nan)
+        if name and name.startswith("engineering_"):  # curves are of logarithmic strains
+            curve[quantity] = -100.0 * np.log1p(-curve[quantity] / 100.0)
     for missing, quantities in (("strain", ["strain"]), ("stress, volumetric strain or void ratio", [name for name in NAMES if name != "strain"])):
         if not any(np.isfinite(curve[quantity]).any() for quantity in quantities):
             known = ", ".join(name for quantity in quantities for name in NAMES[quantity])
@@ -66,12 +70,12 @@ def is_cyclic(curve):
 
 
 def mean_of(curves):
-    """Over the tests that came farthest, as the summary has it; without a last row where each ended at a length of its own."""
+    """Over the tests that came farthest, as the summary has it, and how many; without a last row where each ended at a length of its own."""
     count = max(len(curve["strain"]) for curve in curves)
     longest = [curve for curve in curves if len(curve["strain"]) == count]
     ends = [curve["length"][-1] for curve in longest]
     rows = slice(count - 1 if np.ptp(ends) > 1e-9 * np.max(np.abs(ends)) else count)
-    return {name: np.mean([curve[name][rows] for curve in longest], axis=0) for name in longest[0]}
+    return {name: np.mean([curve[name][rows] for curve in longest], axis=0) for name in longest[0]}, len(longest)
 
 
 def is_of_table(path):
@@ -105,8 +109,9 @@ def laboratory(folder, overlays=()):
             if len(curves) > 1:
                 for curve in curves:
                     axes.plot(curve[x], curve[y], color=PALE if colour == BLUE else colour, linewidth=0.7, alpha=0.7)
-            mean = mean_of(curves)
-            label = name if len(curves) == 1 else f"{name}, mean of {len(curves)}"
+            mean, used = mean_of(curves)
+            of_all = "" if used == len(curves) else f" of {len(curves)}"
+            label = name if len(curves) == 1 else f"{name}, mean of {used}{of_all}"
             axes.plot(mean[x], mean[y], dashes, color=colour, label=label)
         axes.set(xlabel=x_label, ylabel=y_label)
     if compresses:

@@ -92,7 +92,7 @@ void declare_test(CLI::App& app, Laboratory& test) {
   examples::declare_device(app, test.device);
   app.add_option("--overlay", test.overlays,
                  "tables drawn in the figures too: test.csv of other runs, or a laboratory's with columns as "
-                 "eps1_percent, epsv_percent, q_kPa, p_kPa, void_ratio")
+                 "eps1_percent, epsv_percent, q_kPa, p_kPa, void_ratio; strains as for calibrate --table")
       ->delimiter(',')
       ->check(CLI::ExistingFile)
       ->check([](std::string const& file) {

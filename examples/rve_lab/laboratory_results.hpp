@@ -191,7 +191,10 @@ LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const&
     angles.push_back(dilation(rows[first], rows[std::min(std::max(last, first + 1), rows.size() - 1)]));
   }
   if (means.empty()) scarp::reject("the test is shorter than the window {} of its results: take a smaller one", window);
-  results.peak = *std::ranges::max_element(means, {}, &Row::friction);
+  auto const largest = std::ranges::max_element(means, {}, &Row::friction);
+  constexpr double round_off = 1e-9;  // [rad]: on a plateau the peak is where it begins
+  results.peak = *std::find_if(means.begin(), largest,
+                               [&](Row const& row) { return row.friction() >= largest->friction() - round_off; });
   auto const growth = [](Row const& row) {  // sigma_1 / sigma_3 - 1
     double const sine = std::sin(row.friction());
     return 2.0 * sine / (1.0 - sine);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "../shared/laboratory_loadings.hpp"
+#include "../shared/print.hpp"
 #include "scarp/core/error.hpp"
 
 namespace rve_lab {
@@ -103,6 +106,15 @@ struct EvenSteps {
     return {count, std::abs(even - wanted) <= slight * wanted ? wanted : even};
   }
 };
+
+/// The same, with a note where the wanted step does not divide the stretch. what: name of the stretch
+inline EvenSteps even_steps(double stretch, double wanted, std::string_view what) {
+  auto const even = EvenSteps::of(stretch, wanted);
+  if (even.strain != wanted)
+    examples::print_notes({fmt::format("--strain-step {} does not divide the {} {}: steps of {:.6g} are made", wanted,
+                                       what, stretch, even.strain)});
+  return even;
+}
 
 /// Steps between two rows.
 inline long steps_of(double strain, double strain_step) { return std::max(1L, std::lround(strain / strain_step)); }

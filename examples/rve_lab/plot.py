@@ -208,7 +208,8 @@ def observations(folder):
 
 
 def calibration(folder):
-    curve = figures.read_csv(folder / "curve.csv", ["axial_strain", "sine", "volumetric_strain"])
+    # Without rows where no seed that was not used has a packing.
+    curve = figures.read_csv(folder / "curve.csv", ["axial_strain", "sine", "volumetric_strain"], may_be_empty=True)
     angle = lambda sine: np.degrees(np.arcsin(np.clip(sine, -1.0, 1.0)))
     panels = {"sine of friction angle": ("mobilised friction angle [degrees]", angle, "sine"),
               "volumetric strain": ("volumetric strain [%]\n(contraction positive)", lambda strain: 100.0 * strain, "volumetric_strain")}

@@ -75,7 +75,8 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
     examples::read_contacts(named, *contacts, law, choice.tolerance);
   if (choice.relaxation) relax(named.packing, law, *choice.relaxation);
   PathKind const& path = path_named(choice.path.name);
-  Lab lab(std::move(named.packing), law, path, choice.path.strain_step, choice.path.held);
+  auto const [steps, strain_step] = even_steps(choice.path.strain, choice.path.strain_step, "strain");
+  Lab lab(std::move(named.packing), law, path, strain_step, choice.path.held);
   auto const first = scarp::balance(lab.packing(), law);
   examples::print(stdout, "{} grains, {:.0f} contacts, void ratio {:.8f}\n", lab.packing().grain_count(),
                   first.contacts, lab.packing().void_ratio());
@@ -99,8 +100,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                                  "n_contacts", "max_overlap_over_rmin"});
   auto const write = [&](long step) { log.add(std::span<double const>(replay_row(lab, path, step))); };
   write(0);
-  long const steps = steps_of(choice.path.strain, choice.path.strain_step);
-  long const steps_per_row = steps_of(choice.path.row_strain.value_or(path.row_strain), choice.path.strain_step);
+  long const steps_per_row = steps_of(choice.path.row_strain.value_or(path.row_strain), strain_step);
   for (long step = 1; step <= steps; ++step) {
     auto const verdict = lab.step();
     if (!verdict.acceptable()) end_early(verdict, path.strain(lab.deformation()), choice.out);
@@ -108,7 +108,7 @@ void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
   }
   if (path.held != nullptr) require_held(lab, path);
   examples::print(stdout, "{} to strain {:.6g} in {} steps of {}: {}\n", path.name, path.strain(lab.deformation()),
-                  steps, choice.path.strain_step, choice.out);
+                  steps, strain_step, choice.out);
 }
 
 }  // namespace

@@ -55,15 +55,11 @@ void run_path(PackingType start, typename PackingType::Law const& law, Path choi
   std::filesystem::path const& folder = own.path();
   PathKind const& path = path_named(choice.name);
   bool const cyclic = choice.cycles > 0;
-  long steps = steps_of(choice.strain, choice.strain_step);
-  if (cyclic) {  // turns are at the amplitude itself
-    auto const quarter = EvenSteps::of(choice.amplitude, choice.strain_step);
-    if (quarter.strain != choice.strain_step)
-      examples::print_notes({fmt::format("--strain-step {} does not divide the amplitude {}: steps of {:.6g} are made",
-                                         choice.strain_step, choice.amplitude, quarter.strain)});
-    choice.strain_step = quarter.strain;
-    steps = 4 * choice.cycles * quarter.count;
-  }
+  // Cycles turn at the amplitude itself.
+  auto const even =
+      even_steps(cyclic ? choice.amplitude : choice.strain, choice.strain_step, cyclic ? "amplitude" : "strain");
+  choice.strain_step = even.strain;
+  long const steps = cyclic ? 4 * choice.cycles * even.count : even.count;
   Specimen<PackingType, scarp::Observe::energy> lab(std::move(start), law, path, choice.strain_step, choice.held);
   double const length = cyclic ? 4.0 * choice.amplitude * choice.cycles : choice.strain;
   examples::Cyclic const cycle{choice.amplitude - 0.5 * choice.strain_step};  // half a step for round-off

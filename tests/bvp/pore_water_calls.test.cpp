@@ -106,6 +106,18 @@ TEST_CASE("a rejected call changes nothing of pore water") {
   CHECK(found.pressure == expected.pressure);
 }
 
+TEST_CASE("an inflow where the pressure is given is rejected, whichever comes first") {
+  auto const grid = box<Small>(2, 2);
+  auto drained = still_water(grid);
+  drained.drain({"right"});
+  CHECK_REFUSED(drained.inflow({"right"}, 1e-6), "has no effect");
+  drained.inflow({"top"}, 1e-6);  // of which one corner drains
+  auto fed = still_water(grid);
+  fed.inflow({"right"}, 1e-6);
+  CHECK_REFUSED(fed.drain({"right"}), "has no effect");
+  fed.drain({"top"});
+}
+
 TEST_CASE("a region with an inflow keeps its water when it is to be taken out") {
   auto mesh = scarp::BoxMesh<Quad8>{.cells = {2, 2}}.generate();
   mesh.regions = {"soil", "plate"};

@@ -47,6 +47,29 @@ struct ForgetsMoment : scarp::Frictionless {
   scarp::ContactStiffness stiffness(double, double) const { return {.normal = normal_stiffness, .rolling = 1e2}; }
 };
 
+/// Presses harder where grains are larger.
+struct ForgetsRadius : scarp::Frictionless {
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
+    return {.normal = scarp::broadcast<T>(1e9) * approach.reduced_radius * approach.overlap};
+  }
+};
+
+/// Remembers its largest overlap.
+struct ForgetsScalar : scarp::Frictionless {
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>& memory) const {
+    memory.scalars[0] = scarp::lanes::at_least(memory.scalars[0], approach.overlap);
+    T const closed = scarp::lanes::at_least(approach.overlap, scarp::broadcast<T>(0));
+    return {.normal = scarp::broadcast<T>(normal_stiffness) * closed};
+  }
+};
+struct KeepsScalar : ForgetsScalar {
+  static constexpr scarp::ContactInputs inputs{.scalars = 1};
+};
+
 /// Pulls across gaps up to `gap` [m], which the member of the misspelt name is to tell.
 struct Sticky {
   static constexpr scarp::ContactInputs inputs{};
@@ -149,6 +172,14 @@ TEST_CASE("a law that tells a stiffness without the need for its motion is refus
                        scarp::InputError);
   CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsMoment{{1e6}}, radius), doctest::Contains(".moment = true"),
                        scarp::InputError);
+}
+
+TEST_CASE("a law names what it uses of the contact and keeps") {
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsRadius{{1e6}}, radius), doctest::Contains(".radius = true"),
+                       scarp::InputError);
+  CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsScalar{{1e6}}, radius), doctest::Contains(".scalars = 0"),
+                       scarp::InputError);
+  CHECK_NOTHROW(scarp::require_consistent(KeepsScalar{{{1e6}}}, radius));
 }
 
 TEST_CASE("a law that pulls across a gap must tell how far") {

@@ -19,6 +19,12 @@ using scarp::Reason;
 using scarp::Status;
 using scarp::Verdict;
 
+/// A law that may act across gaps.
+struct Attractive : scarp::LinearFrictional {
+  double range = 0.0;  ///< [m]
+  double interaction_range() const { return range; }
+};
+
 }  // namespace
 
 TEST_CASE("a drive looks before its first step and leaves a consolidated packing alone") {
@@ -44,6 +50,18 @@ TEST_CASE("a path towards zero, tension or not-a-number ends as unreachable with
     CHECK(mean.step(stepper) == Verdict{Status::not_converged, Reason::unreachable});
   }
   CHECK(packing == before);
+}
+
+TEST_CASE("grains that pull at each other may carry tension") {
+  using Grains = scarp::Packing<scarp::Disc, Attractive>;
+  auto const moves = [](double range) {
+    auto packing = samples::triangular_lattice<Grains>(4, 5e-3, 1e-2 * (1.0 - 1e-3));
+    scarp::TimeStepper<Grains> stepper;
+    scarp::CellDriver<Grains> lateral(packing, {samples::study_law(), range}, scarp::drained_compression<2>(1e-6, 0.0));
+    return lateral.step(stepper).acceptable();
+  };
+  CHECK(moves(1e-4));
+  CHECK_FALSE(moves(0.0));
 }
 
 TEST_CASE("held stresses stay within one percent along a path") {

@@ -3,12 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 
 #include "scarp/contact/rolling_resistance.hpp"
 #include "scarp/dem/gradings.hpp"
 #include "scarp/dem/time_stepping.hpp"
 #include "scarp/homogenise/balance.hpp"
+#include "scarp/shape/convex_shape.hpp"
 #include "scarp/shape/disc.hpp"
 #include "scarp/shape/sphere.hpp"
 #include "support/packings.hpp"
@@ -21,6 +23,14 @@ using samples::Ellipses;
 using scarp::Tensor;
 using RollingLaw = scarp::RollingResistance<scarp::LinearFrictional>;
 using RollingDiscs = scarp::Packing<scarp::Disc, RollingLaw>;
+
+/// A rounded triangle: half a turn makes another of it.
+struct Triangle : scarp::ConvexShape<Triangle, 1> {
+  template <class T>
+  static constexpr T support(std::array<T, 1> const& size, T const& cosine, T const& sine) {
+    return size[0] * (1.0 + 0.08 * cosine * (cosine * cosine - 3.0 * sine * sine));
+  }
+};
 
 template <class PackingType>
 typename PackingType::Law law() {
@@ -95,6 +105,24 @@ TEST_CASE_TEMPLATE("a packing is mirrored across any plane", PackingType, Discs,
   shear(packing, strain(), 200);
   shear(image, mirror * strain() * mirror, 200);
   CHECK(apart(packing, image, mirror) < 0.02);  // local damping acts on components along fixed axes
+}
+
+TEST_CASE("grains without a point of symmetry are mirrored as they lie") {
+  using Triangles = scarp::Packing<Triangle, scarp::LinearFrictional>;
+  auto grains =
+      samples::place<Triangles>(Tensor<2>{{0.2, 0.0}, {0.0, 0.2}}, {{5e-3}, {5e-3}}, {{0.1, 0.1}, {0.1098, 0.1}});
+  grains.orientation(0, 0) = std::cos(0.3);  // a corner of one presses on a side of the other
+  grains.orientation(0, 1) = std::sin(0.3);
+  scarp::TimeStepper<Triangles> stepper;
+  REQUIRE(stepper.refresh(grains, samples::study_law()).acceptable());
+  Tensor<2> const stress = scarp::balance(grains, samples::study_law()).stress;
+  REQUIRE(stress(0, 0) < 0.0);
+  for (double const angle : {0.0, 0.7}) {
+    scarp::Vector<2> const normal(std::cos(angle), std::sin(angle));
+    Tensor<2> const mirror = scarp::reflection<2>(normal);
+    Tensor<2> const image = scarp::balance(scarp::mirrored(grains, normal), samples::study_law()).stress;
+    CHECK((image - mirror * stress * mirror).norm() < 1e-10 * stress.norm());
+  }
 }
 
 TEST_CASE("spheres are mirrored across any axis, with their spins and contacts") {

@@ -69,6 +69,15 @@ std::function<void()> prepare_with(Change change) {
   };
 }
 
+/// Loses a grain of those that are asked for together.
+struct LosesOne {
+  using Shape = scarp::Disc;
+  scarp::SizeOf<Shape> sample(scarp::Random&) const { return {1e-3}; }
+  std::vector<scarp::SizeOf<Shape>> sample(scarp::Random&, int count) const {
+    return std::vector<scarp::SizeOf<Shape>>(static_cast<std::size_t>(count - 1), {1e-3});
+  }
+};
+
 template <class Grading>
 std::function<void()> cloud_of(Grading grading) {
   return [grading] {
@@ -144,6 +153,10 @@ TEST_CASE("parameters of a servo and of its loading are refused") {
        reach_with([](auto& servo, auto&) { servo.feedback.learning_steps = inf; })},
       {"prescribed displacement gradient",
        reach_with([](auto&, auto& loading) { loading.gradient_per_step(0, 1) = no_number; })},
+      {"held stress 0 has a direction that is not symmetric",
+       reach_with([](auto&, auto& loading) { loading.controls[0].direction(0, 1) = 0.5; })},
+      {"strains along the direction of held stress 0",
+       reach_with([](auto&, auto& loading) { loading.gradient_per_step(0, 0) = -1e-6; })},
       {"direction of a held stress is 0",
        reach_with([](auto&, auto& loading) { loading.controls[0].direction.setZero(); })},
       {"held stresses 0 and 1 have directions in common", reach_with([](auto&, auto& loading) {
@@ -181,6 +194,7 @@ TEST_CASE("sizes that no grains have are refused") {
       {"largest size of the grading is inf", cloud_of(DiscGrading{1e-3, inf})},
       {"aspect ratio of the grading is 0", cloud_of(EllipseGrading{1e-3, 2e-3, 0.0})},
       {"a packing of zero grains", [] { Grains({}, 1.0, 1.0); }},
+      {"the grading gives 3 grains (asked for 4)", cloud_of(LosesOne{})},
       {"share of the cell filled by the cloud is 1.2",
        [] {
          static_cast<void>(scarp::Cloud<DiscGrading>{

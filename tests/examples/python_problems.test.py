@@ -151,6 +151,17 @@ with tempfile.TemporaryDirectory() as scratch:
     rejected(ValueError, "no UMAT (the symbol umat_", lambda: scarp.umat(file=scarp._points.__file__))
     rejected(ValueError, "does not load", lambda: scarp.umat(file=source))
     rejected(ValueError, "a UMAT has no file", lambda: scarp.umat())
+    # Saved points find their library from any folder, and not another one of its name.
+    (pathlib.Path(scratch) / "elsewhere").mkdir()
+    was = os.getcwd()
+    os.chdir(scratch)
+    points = scarp.MaterialPoints(scarp.umat(file="soil.so", properties=[lame, shear], variables=[0.0]), np.zeros((1, 2)))
+    os.chdir("elsewhere")
+    strain = np.array([[[0.0, 0.0], [0.0, -1e-4]]])
+    expect(np.array_equal(pickle.loads(pickle.dumps(points)).respond(strain)[0], points.respond(strain)[0]), "saved points of a UMAT respond otherwise elsewhere")
+    os.chdir(was)
+    os.utime(library, (1e9, 1e9))
+    rejected(ValueError, "compiled anew since it was loaded", lambda: scarp.umat(file=library, properties=[lame, shear], variables=[0.0]))
 
 # Terzaghi's column of water that keeps its volume, drained at its top: p/p0 at the base 0.9493 at T 0.1, 0.3708 at T 0.5 (Terzaghi 1943).
 column = scarp.Model(scarp.box_mesh("quad8", [0.1, 1.0], [1, 10]), kinematics="small_strain")
@@ -408,6 +419,7 @@ found = scarp.reduce_strength(slope, most=2.0, tolerance=0.02)
 expect(1.36 < found.fails and found.stands < 1.43 and found.fails <= 1.02 * found.stands and "fails beyond" in found.why, f"{found}")
 expect(scarp.reduce_strength(slope, least=1.8, most=2.0).stands == 0.0 and scarp.reduce_strength(slope, most=1.1).fails == 0.0, "bounds of a factor")
 expect("larger" in scarp.reduce_strength(slope, most=1.1).why, "no word of a largest factor that stands")
+rejected(ValueError, "failed", lambda: scarp.reduce_strength(slope, failed=0.0))
 rejected(ValueError, "factors from 2", lambda: scarp.reduce_strength(slope, least=2.0, most=1.0))
 
 
@@ -470,6 +482,48 @@ class Forgets(One):
 
 
 rejected(ValueError, "for a strain of zero", lambda: footing(lambda rest: Forgets(2, **rest)))
+
+
+class InPlace(One):
+    """Writes into what it is given, whose start is kept by the material."""
+
+    def start(self, position, depth):
+        self.kept = getattr(self, "kept", None) or (np.array([-1e4, -2e4, 0.0]), np.zeros(1))
+        return self.kept[0], self.moduli, self.kept[1]
+
+    def respond(self, strain, stress, variables):
+        stress += self.moduli @ strain
+        variables += 1.0
+        return stress, self.moduli, variables
+
+
+analysis = scarp.Analysis(footing(lambda rest: InPlace(2)))
+expect(np.array_equal(analysis.stresses[0], [-1e4, -2e4, 0.0]) and analysis.quantities(0)["variable 0"] == 0.0, f"a start that responses change: {analysis.stresses[0]}")
+
+
+class ForgetsInPlace(One):
+    def start(self, position, depth):
+        return np.array([-1e4, -2e4, 0.0]), self.moduli, [0.0]
+
+    def respond(self, strain, stress, variables):
+        stress[:] = self.moduli @ strain
+        return stress, self.moduli, variables
+
+
+rejected(ValueError, "for a strain of zero", lambda: footing(lambda rest: ForgetsInPlace(2)))
+for load in (lambda model: model.surcharge(["top", "top"], 1.0), lambda model: model.traction(["top", "left", "top"], [0.0, 1.0])):
+    rejected(ValueError, "'top' is named twice", lambda: load(scarp.Model(scarp.box_mesh("quad4", [2.0, 1.0], [2, 1]))))
+wet = scarp.Model(scarp.box_mesh("quad8", [2.0, 1.0], [2, 1]), kinematics="small_strain")
+wet.fix("bottom")
+wet.material("soil", made)
+wet.water(conductivity=1e-6, drained="top", inflows={"top": 1e-5})
+rejected(ValueError, "an inflow has no effect", lambda: scarp.Analysis(wet))
+# Ground responds at the depths that it was made for.
+deep = scarp.Model(scarp.box_mesh("quad4", [2.0, 1.0], [2, 1]))
+deep.fix("bottom")
+deep.material("soil", scarp.ground_of_discs(grains=50, depths=[30.0, 31.0], surcharge=4e3, unit_weight=16e3))
+rejected(ValueError, "the ground has no packing of that depth", lambda: scarp.Analysis(deep))
+rejected(ValueError, "threads is given", lambda: scarp.mohr_coulomb(young=1e7, threads=2))
 
 # A material in Python that fails.
 

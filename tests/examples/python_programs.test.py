@@ -102,6 +102,9 @@ def check_refusals(folder):
     del os.environ["SCARP_PROGRAMS"]
     if before:
         os.environ["SCARP_PROGRAMS"] = before
+    rejected(ValueError, "another name of", lambda: program_options.given("rve_lab", {"held_stress": 1e5, "lateral_stress": 3e5}, "shear"))
+    for empty in ("", []):
+        rejected(ValueError, "a value is expected", lambda: program_options.given("fault_rupture", {"seeds": empty}))
     code = program_options.given("fault_rupture", {"quick": True})
     rejected(ZeroDivisionError, "division", lambda: programs.run("fault_rupture", [*program_options.command_line(code), f"--output={folder / 'told'}"],
                                                                 lambda line: 1 / 0))

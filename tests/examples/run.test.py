@@ -27,6 +27,8 @@ CASES = [
     ([], "device=none\nelement=tri3\n", "fault_rupture"),
     ([], "# element=quad8\nno-element=quad8\nelement-size=2\n", "fault_rupture"),
     (["--element", "quad4"], "element=quad8\n", "fault_rupture_quad4"),
+    (["ensemble"], "element=quad8\n[sensitivity]\nelement=quad4\n[ensemble]\nseeds=3\n", "fault_rupture_quad8"),
+    (["ensemble"], "element=quad8\n[ensemble]\nelement=quad4\n", "fault_rupture_quad4"),
 ]
 
 with tempfile.TemporaryDirectory() as folder:

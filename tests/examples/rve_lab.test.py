@@ -147,6 +147,13 @@ def check_other_stress(folder):
     expect(not (folder / "unused").exists(), "options that are not used: something was written")
 
 
+def check_lengths(folder):
+    """Paths end at their strain, whatever the step is."""
+    code, said = run("shear", "--grains", "60", "--strain", "1.5e-4", "--strain-step", "1e-4", "--overwrite", "--output", "length", folder=folder)
+    strain = read(folder / "length/path.csv")[-1]["strain"] if code == 0 else None
+    expect(code == 0 and abs(strain / 1.5e-4 - 1.0) < 1e-6 and "does not divide the strain" in said, f"a path to 1.5e-4 ends at {strain}: {code}\n{said}")
+
+
 def check_cycles(folder):
     """Cycles turn round at their amplitude, whatever the step is; one that divides it stays."""
     for step, used, steps in ((5e-5, 5e-5, 16), (6.6e-5, 5e-5, 16), (3e-5, 2.5e-5, 32)):

@@ -183,6 +183,9 @@ def check_tables(folder):
     rows = ["eps1_percent,epsv_percent,q_kPa,p_kPa"]
     rows += [f"{0.1 * k},{0.01 * k},{100 * k / (5 + k)},{200 + 100 * k / (5 + k) / 3}" for k in (*range(21), 20)]  # a hold at the end
     (folder / "drained.csv").write_text("\n".join(rows) + "\n")
+    # The same test by strains over its initial height and volume.
+    over = [f"{100 * -math.expm1(-k / 1000)},{100 * -math.expm1(-k / 10000)},{row.split(',', 2)[2]}" for k, row in zip((*range(21), 20), rows[1:])]
+    (folder / "engineering.csv").write_text("\n".join(["engineering_axial_strain_percent,engineering_volumetric_strain_percent,q_kPa,p_kPa", *over]) + "\n")
     command = [LAB, "calibrate", "--grains", "60", "--strain-step", "5e-5", "--free", "friction", "--seeds", "2", "--evaluations", "3"]
     code, said = run(*command, "--table", "drained.csv", "--triaxial", "--output", "table", folder=folder)
     if code > 0 and "without NLopt" in said:
@@ -193,6 +196,11 @@ def check_tables(folder):
     with open(folder / "table/calibration.csv", newline="") as file:
         fitted = list(csv.DictReader(file))
     expect({row["name"] for row in fitted} == {"sine of friction angle", "volumetric strain"}, f"columns {fitted}")
+    code, said = run(*command, "--table", "engineering.csv", "--triaxial", "--output", "engineering", folder=folder)
+    with open(folder / "engineering/calibration.csv", newline="") as file:
+        alike = list(csv.DictReader(file))
+    expect(len(alike) == len(fitted) and all(abs(float(a[name]) - float(b[name])) < 1e-12 for a, b in zip(alike, fitted)
+                                             for name in ("axial_strain", "wanted")), f"engineering strains: ended with {code}\n{said}")
     last = [row for row in fitted if row["name"] == "sine of friction angle"][-1]
     q = 1e5 * 20 / 25
     ratio = q / (2e5 + q / 3)
@@ -249,6 +257,7 @@ def check_impossible_tables(folder):
             ("axial_strain,void_ratio", lambda t: (0.1 * t, 0.7), held, "no stress_ratio, no q and p, and no volumetric_strain (line 1 names axial_strain, void_ratio"),
             ("axial_strain,q,p,volumetric_strain_pct", lambda t: (0.1 * t, 4e5 * t, 4e5 * (1 + t / 2), t), [], "column 'volumetric_strain_pct' that is not read"),
             ("axial_strain,stress_ratio,q,p", lambda t: (0.1 * t, t / (1 + t / 2), 4e5 * t, 4e5 * (1 + t / 2)), ["--strain", "0.01"], "--strain is 0.01 (the tables go to"),
+            ("engineering_axial_strain,stress_ratio", lambda t: (2 * t, t), held, "engineering_axial_strain_percent where it is in per cent"),
             ("eps_percent,stress_ratio", lambda t: (0.1 * t, t), held, "(line 1 names eps_percent, stress_ratio; axial_strain, axial_strain_percent, eps1")):
         table(head, row)
         code, said = run(LAB, "calibrate", "--grains", "60", "--table", "impossible.csv", *more, "--output", "none", folder=folder)

@@ -212,6 +212,7 @@ TEST_CASE("weights and materials of regions together are those of each") {
   CHECK_REFUSED(model.gravity({"clay", "peat"}, 1.0), "peat");
   CHECK(model.dead_loads().sum() == Approx(-2.0 * height * weight).epsilon(1e-9));
   CHECK_REFUSED(model.surcharge({"top"}, std::nan("")), "surcharge");
+  CHECK_REFUSED(model.surcharge({"top", "top"}, 1.0), "named twice");
 }
 
 TEST_CASE("the stress at rest is that of one weight below a whole surface") {

@@ -126,10 +126,10 @@ class Frames:
     >>> _ = frames.animation().to_jshtml()
     """
 
-    def __init__(self, values: Optional[Callable[[Analysis], npt.ArrayLike]] = None, label: str = "shear strain", at: Optional[str] = None) -> None:
+    def __init__(self, values: Optional[Callable[[Analysis], npt.ArrayLike]] = None, label: str = "", at: Optional[str] = None) -> None:
         self._values = values or Analysis.shear_strains
         self._at = at if values else "points"
-        self._label = label
+        self._label = label or ("" if values else "shear strain")
         self._analysis: Optional[Analysis] = None
         self.steps: List[Tuple[float, Floats, Floats]] = []
 

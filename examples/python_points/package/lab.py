@@ -53,12 +53,14 @@ class LabRun(Run):
     @functools.cached_property
     def summary(self) -> Record:
         """Strengths [degrees], moduli [Pa] and what the tests had in common (``summary.json``)."""
-        return read_record(self.folder / "summary.json")
+        return Record() if self.command == "prepare" else read_record(self.folder / "summary.json")
 
     @functools.cached_property
     def curve(self) -> Columns:
         """The path of ``shear`` or ``replay``, the test of ``test``, or the calibrated one: strains, stresses [Pa], void ratio and more.
         FileNotFoundError for ``prepare``."""
+        if self.command == "prepare":
+            raise FileNotFoundError(f"'{self.folder}' is of prepare, which writes no curve: take that of shear or test")
         return read_columns(self.folder / f"{CURVES.get(self.command, 'path')}.csv")
 
     @functools.cached_property

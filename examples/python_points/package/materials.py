@@ -24,8 +24,10 @@ def _maker(kind: str, spaces: Tuple[int, ...], what: str) -> Callable[..., _poin
 
 
 _ground = "The initial stress is that of level ground, by `surcharge`, `unit_weight` and `k0`, see `Model.geostatic`."
-_sand = "A packing is prepared; `progress` is called with what is done. `stiffness_floor` is the share of its stiffness that a fluid point keeps."
-_level = f"Packings that are compressed through the overburdens of all `depths`, each point gets that of its depth. {_sand}"
+_packing = "`progress` is called with what is done, what there is to do and a text."
+_sand = f"A packing is prepared, or several by so many `threads`; {_packing} `stiffness_floor` is the share of its stiffness that a fluid point keeps."
+_level = ("Packings that are compressed through the overburdens of all `depths`, each point gets that of its depth and is rejected at others. "
+          f"{_packing} `stiffness_floor` is the share of its stiffness that a fluid point keeps.")
 linear_elastic = _maker("linear_elastic", (2, 3), _ground)
 mohr_coulomb = _maker("mohr_coulomb", (2, 3), _ground)
 umat = _maker("umat", (2, 3), f"A user's UMAT in the shared library `file`; `variables` are STATEV at the start. {_ground}")

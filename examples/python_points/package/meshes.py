@@ -79,7 +79,12 @@ def plane_axes(axes: Any, width: float, height: float) -> Any:
     return axes
 
 
-@dataclasses.dataclass
+def _require_name(name: Any) -> None:
+    if not isinstance(name, str):
+        raise TypeError(f"a boundary is named {name!r} (a text is expected): give it one")
+
+
+@dataclasses.dataclass(eq=False)
 class Mesh:
     """Nodes, elements of one kind, the regions that they belong to, and named boundaries.
 
@@ -142,6 +147,8 @@ class Mesh:
                                        f"{len(self.regions)} regions: {', '.join(self.regions)}")
         if not isinstance(self.boundaries, Mapping):
             raise TypeError(f"the boundaries are {type(self.boundaries).__name__} (a dictionary of names and facets is expected): give one")
+        for name in self.boundaries:
+            _require_name(name)
         facet = len(shape.sides[0])
         facet += between * (facet if facet > 2 else 1)
         self.boundaries = {name: _numbers(facets, f"the facets of the boundary '{name}'", (-1, facet), len(self.nodes), nodes)
@@ -267,6 +274,7 @@ class Mesh:
         if not mask.any():
             reach = ", ".join(f"{axis} from {low:.6g} to {high:.6g} m" for axis, low, high in zip("xyz", middles.min(axis=0), middles.max(axis=0)))
             raise ValueError(f"boundary '{name}' has no facet (the outline's middles have {reach}): choose some of them, with a tolerance")
+        _require_name(name)
         self.boundaries[name] = facets[mask]
 
     def plot(self, axes: Any = None) -> Any:
@@ -401,7 +409,7 @@ class Mesh:
                    {name: new[np.concatenate(facets)] for name, facets in boundaries.items()}, notes)
 
     def to_meshio(self, nodes: Any = None, point_data: Optional[Mapping[str, Any]] = None, cell_data: Optional[Mapping[str, Any]] = None) -> Any:
-        """The mesh as meshio has it, perhaps with other positions of the nodes [m] and with fields.
+        """Nodes and elements as meshio has them, perhaps with other positions [m] and with fields; regions and boundaries stay behind.
 
         Examples
         --------

@@ -18,7 +18,11 @@ Amplitude = Sequence[Tuple[float, float]]
 
 
 def _names(sides: Sides) -> List[str]:
-    return [sides] if isinstance(sides, str) else list(sides)
+    names = [sides] if isinstance(sides, str) else list(sides)
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"the boundary {name!r} is named twice in one call (its load would double): name it once")
+    return names
 
 
 def _knots(amplitude: Optional[Amplitude]) -> Optional[List[Tuple[float, float]]]:
@@ -245,13 +249,13 @@ class Model:
         if not isinstance(begin, tuple) or len(begin) not in (2, 3):
             raise ValueError(f"start of the material of '{region}' returned {begin!r} (a tuple of stress, tangent and, where it has some, variables is "
                              "expected): correct it")
-        stress, kept = np.asarray(begin[0], dtype=float), np.asarray(begin[2] if len(begin) == 3 else [], dtype=float)
+        stress, kept = np.array(begin[0], dtype=float), np.array(begin[2] if len(begin) == 3 else [], dtype=float)
         if not np.isfinite(stress).all():
             raise ValueError(f"start of the material of '{region}' returned the stress {stress} Pa (finite numbers are expected): correct it")
         if hasattr(material, "respond"):
-            end = material.respond(np.zeros_like(stress), stress, kept)
+            end = material.respond(np.zeros_like(stress), stress.copy(), kept.copy())
         else:
-            end = material.respond_all(np.zeros((1, len(stress))), stress[None], kept[None])
+            end = material.respond_all(np.zeros((1, len(stress))), stress[None].copy(), kept[None].copy())
         try:
             found = np.ravel(np.asarray(end[0], dtype=float))
         except (TypeError, ValueError):

@@ -348,7 +348,7 @@ class Analysis:
         filled = PolyCollection(self.positions[self.mesh.corners], array=shown, cmap="cividis", edgecolors="face", linewidths=0.5)
         axes.add_collection(filled)
         axes.autoscale_view()
-        axes.figure.colorbar(filled, ax=axes, label="shear strain" if values is None else label, shrink=0.6)
+        axes.figure.colorbar(filled, ax=axes, label=label or ("shear strain" if values is None else ""), shrink=0.6)
         return axes
 
     def save(self, file: Path) -> None:
@@ -442,8 +442,8 @@ def load_analysis(file: Path, **settings: Any) -> Analysis:
     return _analysis(found._recipe, {**found._settings, **settings}, found._analysis.bytes()) if settings else found
 
 
-def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, most: float = 3.0, tolerance: float = 0.01, load: float = 1.0,
-                    **settings: Any) -> SafetyFactor:
+def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, most: float = 3.0, tolerance: float = 0.01, load: float = 1.0, failed: float = 100.0,
+                    failing: float = 10.0, **settings: Any) -> SafetyFactor:
     """Strength reduction: the largest factor by which the strengths of a model can be divided so that it carries a load factor.
 
     The interval between a factor that stands and one that fails is halved until it is within the tolerance. Use small strain: in large strain
@@ -460,6 +460,8 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
         Of the factor, relative.
     load : float
         Load factor that is to be carried.
+    failed, failing : float
+        What counts as failure, see `Analysis.find_collapse`.
     settings
         Of each `Analysis`; by default those that let Mohr-Coulomb's ground flow.
 
@@ -490,7 +492,7 @@ def reduce_strength(make_model: Callable[[float], Model], least: float = 1.0, mo
             knot = analysis._analysis.next_knot(load)
             if np.isfinite(knot):
                 raise ValueError(f"a factor of safety is requested at the load factor {load} (loads change at {knot}): give it a larger load factor")
-            end = analysis.find_collapse(load)
+            end = analysis.find_collapse(load, failed=failed, failing=failing)
             if end.run.status in ("ok", "fluid") and not end.failed:
                 stands = factor
             else:

@@ -160,7 +160,11 @@ def given(name: str, keywords: Mapping[str, Any], command: str = "", others: str
             continue
         if not option.takes_value and not _is_truth(value):
             raise TypeError(f"{keyword} is {value!r} (expected is True or False): correct it")
+        if option.name in found:
+            raise ValueError(f"{keyword} is another name of {option.name.replace('-', '_')}, which is given too: leave one of the two out")
         found[option.name] = _words_of(option, value) if option.takes_value else []
+        if option.takes_value and (not found[option.name] or "" in found[option.name]):
+            raise ValueError(f"{keyword} is {value!r} (a value is expected): give one, or leave it out")
     return found
 
 

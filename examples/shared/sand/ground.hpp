@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "../print.hpp"
 #include "built.hpp"
 #include "preparation.hpp"
 #include "scarp/rve/level_ground.hpp"
@@ -12,7 +16,8 @@
 namespace examples {
 
 /// Level ground of a sand, one packing for each depth [m]. Void ratio and relative density are those that the packing has when it is
-/// compressed isotropically to the sand's pressure instead; it may be off by 0.01, over which packings of few grains jump.
+/// compressed isotropically to the sand's pressure instead; it may be off by 0.01, over which packings of few grains jump; a note tells it
+/// where it is by more than the sand's tolerance.
 /// unit_weight [N/m3], surcharge [Pa]
 /// \throws InputError, PreparationError
 template <class PackingType>
@@ -45,7 +50,13 @@ scarp::PackingsByDepth<PackingType> level_ground(Sand const& sand, typename Pack
   if (sand.void_ratio > 0.0 || sand.relative_density > 0.0) {
     Consolidation<PackingType> const consolidation{
         ground.cloud.template make<PackingType>(), law, sand.pressure, ground.preparation.pressure, {}, least_friction};
-    friction = reach_density(consolidation, sand, off).friction;
+    auto const made = reach_density(consolidation, sand, off);
+    friction = made.friction;
+    if (std::abs(made.void_ratio - made.wanted) > sand.void_ratio_tolerance)
+      print_notes({fmt::format(
+          "the ground has the void ratio {:.5f} where {:.5f} is wanted (seed {}): more grains, or another seed, come "
+          "nearer",
+          made.void_ratio, made.wanted, seed)});
   }
   return ground.template make<PackingType>(law, std::move(depths));
 }

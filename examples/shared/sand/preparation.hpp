@@ -39,6 +39,7 @@ struct Consolidation {
     PackingType packing;  ///< at the pressure `begin`
     double void_ratio;    ///< at `pressure`
     double friction;
+    double wanted = void_ratio;  ///< void ratio
   };
 
   /// \throws PreparationError
@@ -109,6 +110,7 @@ typename Consolidation<PackingType>::Made reach_density(Consolidation<PackingTyp
         "void ratio {:.6g} is not reached (frictions from {} to {} give {:.6f} to {:.6f}, the nearest found is {:.6f} "
         "at {}): choose one in between, another seed or a wider tolerance",
         target, first, friction_coefficient(law), densest, loosest, nearest.void_ratio, nearest.friction);
+  nearest.wanted = target;
   return nearest;
 }
 

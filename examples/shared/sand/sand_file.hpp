@@ -68,7 +68,8 @@ inline Sand read_sand(std::filesystem::path const& path, Sand sand = {}, IsGiven
   return sand;
 }
 
-/// The text that read_sand reads: all options that the sand uses, with what they are.
+/// The text that read_sand reads: all options that the sand uses, with what they are. A ratio of no vertical pressure is left to the
+/// program that reads it: ground has one of its own.
 inline std::string text_of(Sand const& sand) {
   std::string text;
   bool const bisects = sand.void_ratio > 0.0 || sand.relative_density > 0.0;
@@ -84,6 +85,8 @@ inline std::string text_of(Sand const& sand) {
       bool const off =
           sets_density(name) || std::string_view(name) == "vertical-pressure" || std::string_view(name) == "k0";
       if (off && member == Member{} && std::string_view(name) != "preparation-friction") return;
+      if (std::string_view(name) == "overconsolidation-ratio" && sand.vertical_pressure == 0.0 && member == Member{1})
+        return;
       text += fmt::format("{} = {}  # {}\n", name, member, what);
     }
   });

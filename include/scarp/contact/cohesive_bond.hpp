@@ -61,7 +61,8 @@ struct CohesiveBond {
     return memory.scalars[state] == broadcast<T>(intact);
   }
 
-  /// Mask of the contacts whose bond has broken, `bool` for a scalar T; contacts that never had one are not among them.
+  /// Mask of the contacts whose bond has broken, `bool` for a scalar T; contacts that never had one are not among them,
+  /// nor pairs that have left each other: breakage is the bonds made without those that are intact.
   template <int Dim, class T>
   static constexpr auto is_broken(ContactMemory<Dim, T> const& memory) {
     return memory.scalars[state] == broadcast<T>(broken);

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cstddef>
+
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/index.hpp"
 
 namespace scarp {
 
 /// Rejects a law whose parameters its own validate() rejects, or whose members contradict each other, which compiles
-/// but gives wrong forces: a stiffness against a motion that `inputs` does not name, a force across a gap without
-/// interaction_range(), a dashpot without damping_ratio(). An interaction range of more than the grain's diameter is
+/// but gives wrong forces: a stiffness against a motion, a radius or a scalar that `inputs` does not name, a force across
+/// a gap without interaction_range(), a dashpot without damping_ratio(). An interaction range of more than the grain's diameter is
 /// rejected too: pairs with others between them would act on each other, and the cell would have to be wider still.
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
 /// \throws InputError
@@ -41,14 +44,16 @@ void require_consistent(Law const& law, double radius) {
         "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
   }
+  double reduced_radius = radius / 2.0;
+  ContactMemory<2, double> memory;
   auto const forces = [&](double overlap, double closing, double sliding = 0.0) {
-    ContactMemory<2, double> memory;
+    memory = {};
     if constexpr (Bonds<Law>) {
       if (overlap < 0.0) Law::bond(memory);
     }
     ContactKinematics<2, double> const approach{.overlap = overlap,
                                                 .slip_increment = 0.0,
-                                                .reduced_radius = radius / 2.0,
+                                                .reduced_radius = reduced_radius,
                                                 .overlap_increment = closing,
                                                 .tangential_increment = sliding,
                                                 .reduced_mass = 1.0,
@@ -56,6 +61,23 @@ void require_consistent(Law const& law, double radius) {
     return law.respond(approach, memory);
   };
   auto const still = forces(depth, 0.0);
+  for (std::size_t k = detail::index(Law::inputs.scalars); k < memory.scalars.size(); ++k) {
+    if (memory.scalars[k] != 0.0)
+      reject(
+          "the contact law writes the scalar {} of a contact (its inputs name .scalars = {}, so it would be "
+          "forgotten): "
+          "name as many as it uses",
+          k, Law::inputs.scalars);
+  }
+  if constexpr (!Law::inputs.radius) {
+    reduced_radius = 0.0;
+    if (forces(depth, 0.0).normal != still.normal)
+      reject(
+          "the contact law's force depends on the reduced radius (its inputs do not name .radius, so it would be "
+          "zero): "
+          "add `.radius = true` to its inputs");
+    reduced_radius = radius / 2.0;
+  }
   if (Law::inputs.motion && damping_ratio_of(law) == 0.0 &&
       (forces(depth, 1e-3 * depth).normal != still.normal || forces(depth, 0.0, 1e-3 * depth).shear != still.shear)) {
     reject(

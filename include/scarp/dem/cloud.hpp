@@ -61,6 +61,9 @@ struct Cloud {
       sizes = grading.sample(random, grains);
     else
       for (int i = 0; i < grains; ++i) sizes.push_back(grading.sample(random));
+    if (detail::count(sizes) != grains)
+      reject("the grading gives {} grains (asked for {}): let sample(random, count) return as many", sizes.size(),
+             grains);
     std::sort(sizes.begin(), sizes.end(), std::greater<>{});
 
     PackingType packing;

@@ -61,6 +61,12 @@ double depth_of_contacts(PackingType const& packing) {
   return PackingType::dim == 2 ? packing.population->thickness() : 2.0 * packing.population->largest_radius();
 }
 
+/// Whether grains of a law may pull at each other.
+template <class Law>
+bool pulls(Law const& law) {
+  return Bonds<Law> || interaction_range_of(law) > 0.0;
+}
+
 /// A law's springs at an overlap of a thousandth of the radius; which one matters only where the stiffness depends on
 /// it.
 template <class PackingType>
@@ -94,6 +100,7 @@ double dashpot_modulus(PackingType const& packing, typename PackingType::Law con
 /// \tparam PackingType a `Packing`
 /// \tparam what at least Observe::balance
 template <class PackingType, Observe what = Observe::balance>
+  requires(what != Observe::nothing)
 class CellDriver {
  public:
   static constexpr int dim = PackingType::dim;  ///< of the packing's space
@@ -116,7 +123,7 @@ class CellDriver {
   /// reports
   template <class Stepper>
   Verdict step(Stepper& stepper) {
-    if (!loading_.reachable(Bonds<Law>)) return {Status::not_converged, Reason::unreachable};
+    if (!loading_.reachable(detail::pulls(law_))) return {Status::not_converged, Reason::unreachable};
     if (!looked_ && !loading_.controls.empty()) {
       if (Verdict const verdict = stepper.observe(packing_, law_, seen_); !verdict.acceptable()) return verdict;
     }
@@ -185,7 +192,7 @@ struct Servo {
                 Loading<PackingType::dim> const& loading) const {
     validate();
     loading.validate();
-    if (!loading.reachable(Bonds<typename PackingType::Law>)) return {Status::not_converged, Reason::unreachable};
+    if (!loading.reachable(detail::pulls(law))) return {Status::not_converged, Reason::unreachable};
     constexpr double slight = 1e-3;  // of the springs, where no stress at all is prescribed
     double const prescribed = loading.stress_scale();
     double const tolerance = stress_tolerance * (prescribed > 0.0 ? prescribed : slight * spring_modulus(packing, law));

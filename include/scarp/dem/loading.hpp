@@ -40,11 +40,11 @@ struct StressControl {
   double missing(Tensor<Dim> const& stress) const {
     return target - stress.cwiseProduct(direction).sum() / direction.squaredNorm();
   }
-  /// Grains without bonds carry pressure only: no stress whose component along D is above zero where D extends every
-  /// direction, or below where it shortens every one.
-  bool reachable(bool bonded) const {
+  /// Grains that do not pull at each other carry pressure only: no stress whose component along D is zero or above where
+  /// D extends every direction, or zero or below where it shortens every one.
+  bool reachable(bool pulls) const {
     if (!std::isfinite(target)) return false;
-    return bonded || ((target < 0.0 || shortens_some(direction)) && (target > 0.0 || shortens_some(-direction)));
+    return pulls || ((target < 0.0 || shortens_some(direction)) && (target > 0.0 || shortens_some(-direction)));
   }
 };
 
@@ -71,14 +71,17 @@ struct Loading {
     return loading;
   }
 
-  /// \throws InputError for directions that hold nothing or the same twice, and for a prescribed strain that is no
-  /// number
+  /// \throws InputError for directions that hold nothing, the same twice or a rotation, and for a prescribed strain that
+  /// is no number or strains along one of them
   void validate() const {
     if (!gradient_per_step.allFinite())
       reject("the prescribed displacement gradient of a step has components that are no numbers: give ordinary ones");
     for (std::size_t k = 0; k < controls.size(); ++k) {
       auto const& direction = controls[k].direction;
       require_positive("size of the direction of a held stress", direction.norm());
+      constexpr double slight = 1e-12;
+      if (!((direction - direction.transpose()).norm() <= slight * direction.norm()))
+        reject("held stress {} has a direction that is not symmetric (a stress has no such component): give one", k);
       for (std::size_t other = 0; other < k; ++other) {
         double const common = controls[other].direction.cwiseProduct(direction).sum();
         if (std::abs(common) > 1e-12 * controls[other].direction.norm() * direction.norm()) {
@@ -88,6 +91,12 @@ struct Loading {
               other, k);
         }
       }
+      double const along = gradient_per_step.cwiseProduct(direction).sum();
+      if (std::abs(along) > slight * gradient_per_step.norm() * direction.norm())
+        reject(
+            "the prescribed displacement gradient of a step strains along the direction of held stress {} (by {}; a "
+            "component is prescribed or held): take that part out",
+            k, along / direction.squaredNorm());
     }
   }
 
@@ -98,10 +107,10 @@ struct Loading {
     return other;
   }
 
-  /// Whether grains, bonded to each other or not, may carry the prescribed stress.
-  bool reachable(bool bonded) const {
+  /// Whether grains, which may pull at each other or not, may carry the prescribed stress.
+  bool reachable(bool pulls) const {
     for (auto const& control : controls) {
-      if (!control.reachable(bonded)) return false;
+      if (!control.reachable(pulls)) return false;
     }
     return true;
   }

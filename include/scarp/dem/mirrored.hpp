@@ -16,7 +16,7 @@ namespace scarp {
 /// anew, whose order is another, or a grain at rest is met, whose +0 damping treats as forwards; across another plane
 /// as far as the damping, which acts on components, allows. Where a packing is by accident stiffer to one side, its
 /// image is stiffer to the other. normal: of length 1. For spheres, and for plane shapes that are symmetric about the
-/// axis of their orientation and the one across, as ellipses are; the image of a clump is another clump.
+/// axis of their orientation; the image of a clump is another clump.
 /// \throws InputError for a normal of another length
 template <class PackingType>
   requires((PackingType::dim == 2 || PackingType::Shape::orientation_count == 0) &&
@@ -60,7 +60,7 @@ PackingType mirrored(PackingType packing, Vector<PackingType::dim> const& normal
   map(packing.position, 1.0, grains);
   map(packing.velocity, 1.0, grains);
   map_axial(packing.spin, grains);
-  if constexpr (Shape::orientation_count == 2) map(packing.orientation, -1.0, grains);
+  if constexpr (Shape::orientation_count == 2) map(packing.orientation, 1.0, grains);
   auto& pairs = packing.pairs;
   if constexpr (Shape::warm_starts_normal) map(pairs.normal, 1.0, pairs.count());
   if constexpr (Law::inputs.shear) {

@@ -229,7 +229,11 @@ void Model<Dim>::move(Names sides, int axis, double rate, TimeFunction const& am
 template <int Dim>
 void Model<Dim>::traction(Names sides, Vector<Dim> const& per_area, std::optional<TimeFunction> const& amplitude) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(grid_->dof_count());
-  for (auto const side : sides) forces += grid_->traction(side, per_area);
+  for (auto const side : sides) {
+    if (std::ranges::count(sides, side) > 1)
+      reject("the boundary '{}' is named twice in one call (its load would double): name it once", side);
+    forces += grid_->traction(side, per_area);
+  }
   if (amplitude) {
     later_.add(std::move(forces), *amplitude);
   } else {

@@ -23,7 +23,8 @@ class PoreBoundaries {
 
   explicit PoreBoundaries(int corners) : given_(index(corners)), is_bare_(given_.size(), 0) { number_unknowns(); }
 
-  /// \throws InputError for a corner whose pressure is given already, and differently; describe(corner): it in words
+  /// \throws InputError for a corner whose pressure is given already, and differently, and for all corners of an inflow;
+  /// describe(corner): it in words
   template <class Describe>
   void prescribe(std::vector<int> const& corners, double pressure, TimeFunction const& amplitude,
                  Describe const& describe) {
@@ -35,14 +36,18 @@ class PoreBoundaries {
         reject("the pore pressure of {} is given twice (as {} and {} Pa, or with two amplitudes): decide for one",
                describe(corner), known->pressure, pressure);
     }
-    for (int const corner : corners) given_[index(corner)] = course;
+    auto all = *this;
+    for (int const corner : corners) all.given_[index(corner)] = course;
+    for (auto const& [rates, course_of_rates] : all.inflows_) all.require_effect(rates, describe);
+    *this = std::move(all);
     number_unknowns();
   }
-  /// rates [m3/s]: of all corners. \throws InputError for a corner that no water is around
+  /// rates [m3/s]: of all corners. \throws InputError for a corner that no water is around, and where all have a pressure
   template <class Describe>
   void let_in(Values rates, TimeFunction const& amplitude, Describe const& describe) {
     for (Eigen::Index k = 0; k < rates.size(); ++k)
       if (rates(k) != 0.0) require_water(static_cast<int>(k), describe);
+    require_effect(rates, describe);
     inflows_.emplace_back(std::move(rates), amplitude);
   }
   /// Corners that no water is around any more have no pressure.
@@ -113,6 +118,19 @@ class PoreBoundaries {
     if (is_bare_[index(corner)] != 0)
       reject("a pore pressure or an inflow is given at {} (no water is around it): name boundaries of wet ground only",
              describe(corner));
+  }
+  /// \throws InputError for rates that flow in at corners of given pressure only, which decides what flows there
+  template <class Describe>
+  void require_effect(Values const& rates, Describe const& describe) const {
+    int last = -1;
+    for (Eigen::Index k = 0; k < rates.size(); ++k) {
+      if (rates(k) == 0.0) continue;
+      last = static_cast<int>(k);
+      if (!is_given(last) || is_bare_[index(last)] != 0) return;
+    }
+    if (last >= 0)
+      reject("an inflow has no effect (the pressure of all its corners is given, as of {}): leave one of the two out",
+             describe(last));
   }
   void number_unknowns() {
     unknowns_.clear();
