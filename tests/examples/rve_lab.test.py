@@ -296,7 +296,7 @@ def check_early_end(folder):
 if not LAB.is_file():
     print(f"skipped: there is no '{LAB}' (set SCARP_EXAMPLES and build the examples)")
     sys.exit(77)
-for check in (check_paths, check_cell, check_held_stress, check_other_stress, check_cycles, check_loose, check_relax, check_round_trip, check_other_codes, check_refusals, check_early_end):
+for check in (check_paths, check_cell, check_held_stress, check_other_stress, check_lengths, check_cycles, check_loose, check_relax, check_round_trip, check_other_codes, check_refusals, check_early_end):
     started = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch:
         check(pathlib.Path(scratch))

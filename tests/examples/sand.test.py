@@ -4,6 +4,7 @@ a sand again, resumes with the same result, passes over infeasible evaluations, 
 (skipped, exit 77, without)."""
 import csv
 import json
+import math
 import pathlib
 import re
 import subprocess

@@ -10,9 +10,10 @@
 namespace scarp {
 
 /// Rejects a law whose parameters its own validate() rejects, or whose members contradict each other, which compiles
-/// but gives wrong forces: a stiffness against a motion, a radius or a scalar that `inputs` does not name, a force across
-/// a gap without interaction_range(), a dashpot without damping_ratio(). An interaction range of more than the grain's diameter is
-/// rejected too: pairs with others between them would act on each other, and the cell would have to be wider still.
+/// but gives wrong forces: a stiffness against a motion, a radius or a scalar that `inputs` does not name, a force
+/// across a gap without interaction_range(), a dashpot without damping_ratio(). An interaction range of more than the
+/// grain's diameter is rejected too: pairs with others between them would act on each other, and the cell would have to
+/// be wider still.
 /// radius [m]: of a grain, for the size of overlap and gap that are tried, 1e-6 of it
 /// \throws InputError
 template <ContactLaw Law>

@@ -40,8 +40,8 @@ struct StressControl {
   double missing(Tensor<Dim> const& stress) const {
     return target - stress.cwiseProduct(direction).sum() / direction.squaredNorm();
   }
-  /// Grains that do not pull at each other carry pressure only: no stress whose component along D is zero or above where
-  /// D extends every direction, or zero or below where it shortens every one.
+  /// Grains that do not pull at each other carry pressure only: no stress whose component along D is zero or above
+  /// where D extends every direction, or zero or below where it shortens every one.
   bool reachable(bool pulls) const {
     if (!std::isfinite(target)) return false;
     return pulls || ((target < 0.0 || shortens_some(direction)) && (target > 0.0 || shortens_some(-direction)));
@@ -71,8 +71,8 @@ struct Loading {
     return loading;
   }
 
-  /// \throws InputError for directions that hold nothing, the same twice or a rotation, and for a prescribed strain that
-  /// is no number or strains along one of them
+  /// \throws InputError for directions that hold nothing, the same twice or a rotation, and for a prescribed strain
+  /// that is no number or strains along one of them
   void validate() const {
     if (!gradient_per_step.allFinite())
       reject("the prescribed displacement gradient of a step has components that are no numbers: give ordinary ones");

@@ -10,8 +10,9 @@
 namespace scarp {
 
 /// Stress and equilibrium of a packing at rest, as a step would observe them but without the forces of dashpots; the
-/// packing is not changed. After a step contacts lack the slip of that step: `TimeStepper::observe` has it. Love and Weber's mean stress has f the force on the second grain and l the branch from
-/// first to second, \f$ \sigma = -\frac1V \sum f \otimes l \f$.
+/// packing is not changed. After a step contacts lack the slip of that step: `TimeStepper::observe` has it. Love and
+/// Weber's mean stress has f the force on the second grain and l the branch from first to second,
+/// \f$ \sigma = -\frac1V \sum f \otimes l \f$.
 template <class PackingType>
 StepObservation<PackingType::dim> balance(PackingType const& packing, typename PackingType::Law const& law) {
   constexpr int dim = PackingType::dim;

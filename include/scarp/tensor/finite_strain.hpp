@@ -37,7 +37,7 @@ Tensor<Dim, Scalar> rotation_factor(Tensor<Dim, Scalar> const& deformation) {
 
 /// \f$ R\,T\,R^T \f$: a tensor turned by a rotation or mirrored by a reflection R.
 template <int Dim>
-Tensor<Dim> turned(Tensor<Dim> const& turn, Tensor<Dim> const& tensor) {
+SCARP_EXPORT Tensor<Dim> turned(Tensor<Dim> const& turn, Tensor<Dim> const& tensor) {
   return turn * tensor * turn.transpose();
 }
 
@@ -72,8 +72,8 @@ RotatedIncrement<Dim>::RotatedIncrement(Gradient<Dim> const& gradient) {
 }
 
 #ifdef SCARP_PRECOMPILED
-extern template SCARP_EXPORT Tensor<2> turned(Tensor<2> const&, Tensor<2> const&);
-extern template SCARP_EXPORT Tensor<3> turned(Tensor<3> const&, Tensor<3> const&);
+extern template Tensor<2> turned(Tensor<2> const&, Tensor<2> const&);
+extern template Tensor<3> turned(Tensor<3> const&, Tensor<3> const&);
 extern template struct RotatedIncrement<2>;
 extern template struct RotatedIncrement<3>;
 #endif

@@ -23,8 +23,8 @@ class PoreBoundaries {
 
   explicit PoreBoundaries(int corners) : given_(index(corners)), is_bare_(given_.size(), 0) { number_unknowns(); }
 
-  /// \throws InputError for a corner whose pressure is given already, and differently, and for all corners of an inflow;
-  /// describe(corner): it in words
+  /// \throws InputError for a corner whose pressure is given already, and differently, and for all corners of an
+  /// inflow; describe(corner): it in words
   template <class Describe>
   void prescribe(std::vector<int> const& corners, double pressure, TimeFunction const& amplitude,
                  Describe const& describe) {
@@ -42,7 +42,8 @@ class PoreBoundaries {
     *this = std::move(all);
     number_unknowns();
   }
-  /// rates [m3/s]: of all corners. \throws InputError for a corner that no water is around, and where all have a pressure
+  /// rates [m3/s]: of all corners. \throws InputError for a corner that no water is around, and where all have a
+  /// pressure
   template <class Describe>
   void let_in(Values rates, TimeFunction const& amplitude, Describe const& describe) {
     for (Eigen::Index k = 0; k < rates.size(); ++k)

@@ -135,8 +135,8 @@ class MohrCoulombReturn {
 using SmallMatrix = std::array<std::array<double, 4>, 4>;
 using SmallVector = std::array<double, 4>;
 
-/// Inverse of the first `size` rows and columns by elimination with partial pivoting; returns the determinant, and where
-/// that is zero no inverse.
+/// Inverse of the first `size` rows and columns by elimination with partial pivoting; returns the determinant, and
+/// where that is zero no inverse.
 SCARP_DEFINITIONS double invert(SmallMatrix matrix, std::size_t size, SmallMatrix& inverse) {
   inverse = {};
   for (std::size_t i = 0; i < size; ++i) inverse[i][i] = 1.0;
