@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <system_error>
 
 namespace python_points {
 
@@ -37,8 +38,9 @@ scarp::Umat* umat_in(std::string const& file) {
   static std::mutex mutex;
   static std::map<std::filesystem::path, std::filesystem::file_time_type> loaded;
   std::scoped_lock const lock(mutex);
-  auto const written = std::filesystem::last_write_time(path);
-  if (loaded.try_emplace(path, written).first->second != written)
+  std::error_code gone;  // a file that was deleted meanwhile stays loaded
+  auto const written = std::filesystem::last_write_time(path, gone);
+  if (!gone && loaded.try_emplace(path, written).first->second != written)
     scarp::reject(
         "'{}' was compiled anew since it was loaded (the loader keeps the old one): start Python anew, or give it "
         "another name",

@@ -110,25 +110,18 @@ template <class Packing>
 struct StartPackings {
   std::variant<scarp::RandomChoice<scarp::SamePacking<Packing>>, scarp::PackingsByDepth<Packing>> of{};
 
-  Packing const& at(scarp::Site<Packing::dim> const& site) const {
-    return std::visit(
-        [&](auto const& source) -> Packing const& {
-          Packing const& packing = source.at(site);
-          if constexpr (requires { source.depths; }) require_made_for(source.depths, site);
-          return packing;
-        },
-        of);
-  }
+  std::vector<double> depths{};  ///< [m] that ground was asked for; empty where packings serve at any
 
- private:
-  static void require_made_for(std::vector<double> const& depths, scarp::Site<Packing::dim> const& site) {
-    double const allowed = 1e-6 * (1.0 + site.depth);  // [m], more than what depths of one packing differ by
-    if (std::ranges::any_of(depths, [&](double depth) { return std::abs(depth - site.depth) <= allowed; })) return;
-    scarp::reject(
-        "point {} is {:.6g} m deep (the ground has no packing of that depth; it has some from {:.6g} to {:.6g} m): "
-        "make it with "
-        "depths=model.depths(), after set_surface_level",
-        site.index, site.depth, depths.front(), depths.back());
+  Packing const& at(scarp::Site<Packing::dim> const& site) const {
+    auto const& packing = std::visit([&](auto const& source) -> Packing const& { return source.at(site); }, of);
+    double const allowed = 1e-6 * (1.0 + site.depth);  // [m], round-off of a surface level
+    auto const is_here = [&](double depth) { return std::abs(depth - site.depth) <= allowed; };
+    if (!depths.empty() && !std::ranges::any_of(depths, is_here))
+      scarp::reject(
+          "point {} is {:.6g} m deep (its ground was made for other depths, {:.6g} to {:.6g} m): make it with "
+          "depths=model.depths(), after set_surface_level",
+          site.index, site.depth, std::ranges::min(depths), std::ranges::max(depths));
+    return packing;
   }
 };
 
@@ -307,7 +300,7 @@ struct LevelGround {
       ground.depths.push_back(depth);
       ground.packings.push_back(packing);
     }
-    return responses.provider<Packing>(law(), {std::move(ground)}, sand.grains);
+    return responses.provider<Packing>(law(), {std::move(ground), depths}, sand.grains);
   }
 };
 

@@ -112,7 +112,6 @@ int whole_number(py::object const& given, char const* what) {
 template <int Dim>
 Material<Dim> made(std::string const& kind, py::dict keywords) {
   py::object const progress = keywords.attr("pop")("progress", py::none());
-  bool const has_threads = keywords.contains("threads");
   py::object const wanted = keywords.attr("pop")("threads", 1);
   int const threads = whole_number(wanted, "threads");
   std::string const bits = with_material<Dim>(kind, [&]<class Recipe>(std::type_identity<Recipe>) {
@@ -122,8 +121,9 @@ Material<Dim> made(std::string const& kind, py::dict keywords) {
     take_keywords(keywords, recipe);
     if constexpr (requires { recipe.complete(given); }) {
       recipe.complete(given);
-    } else if (has_threads) {
-      scarp::reject("threads is given (discs, ellipses and spheres prepare their packings by several): leave it out");
+    } else if (threads > 1) {
+      scarp::reject("threads is {} (discs, ellipses and spheres alone prepare their packings by several): leave it out",
+                    threads);
     }
     return bits_of(recipe);
   });

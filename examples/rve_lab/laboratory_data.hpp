@@ -115,6 +115,7 @@ struct LabTable {
     for (auto const& name : table.names()) {
       std::string small = name;
       for (char& letter : small) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      if (small.starts_with("engineering_")) small.erase(0, small.find('_') + 1);
       if (small.starts_with("vol") || small.starts_with("epsv") || small.starts_with("eps_v"))
         scarp::reject(
             "'{}' has a column '{}' that is not read (volumetric strains are volumetric_strain or epsv, with _percent "
@@ -138,8 +139,8 @@ struct LabTable {
         if (!std::string_view(name).starts_with("engineering_")) continue;
         if (!(value < 1.0))
           scarp::reject(
-              "line {} of '{}': {} is {} (below 1 is possible): name its column {}_percent where it is in per cent",
-              table.line(row), table.file(), name, value, name);
+              "line {} of '{}': {} is {} (below 1 is possible): let its name end in _percent where it is in per cent",
+              table.line(row), table.file(), name, value);
         value = -std::log1p(-value);
       }
       return values;
@@ -167,13 +168,14 @@ struct LabTable {
                       strain[row], strain[row - 1]);
       if (strain[row] > most_strain)
         scarp::reject(
-            "{}: the axial strain is {} (at most {} is expected): name its column axial_strain_percent where it is in "
-            "per cent",
+            "{}: the axial strain is {} (at most {} is expected): let the name of its column end in _percent where it "
+            "is "
+            "in per cent",
             place(row), strain[row], most_strain);
       if (!volumetric.empty() && std::abs(volumetric[row]) > 3.0 * std::abs(strain[row]) + slight) {
         std::string const why = row == 0 ? "a test begins at 0): leave out what came before it"
-                                         : "at most three times as much is expected): name its column "
-                                           "volumetric_strain_percent where it is in per cent";
+                                         : "at most three times as much is expected): let the name of its column end "
+                                           "in _percent where it is in per cent";
         scarp::reject("{}: the volumetric strain is {} at an axial strain of {} ({}", place(row), volumetric[row],
                       strain[row], why);
       }

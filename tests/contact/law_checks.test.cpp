@@ -66,6 +66,33 @@ struct ForgetsScalar : scarp::Frictionless {
     return {.normal = scarp::broadcast<T>(normal_stiffness) * closed};
   }
 };
+/// Bonds contacts by a number that it does not name.
+struct ForgetsBond : scarp::Frictionless {
+  template <int Dim, class T>
+  static constexpr void bond(scarp::ContactMemory<Dim, T>& memory) {
+    memory.scalars[0] = scarp::broadcast<T>(1.0);
+  }
+};
+/// Adds up its slip.
+struct ForgetsSlip : scarp::Frictionless {
+  static constexpr scarp::ContactInputs inputs{.shear = true};
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>& memory) const {
+    if constexpr (Dim == 2) memory.scalars[1] = memory.scalars[1] + approach.slip_increment;
+    return {.normal = scarp::broadcast<T>(normal_stiffness) *
+                      scarp::lanes::at_least(approach.overlap, scarp::broadcast<T>(0))};
+  }
+};
+/// Has no number for its force.
+struct NoNumber : scarp::Frictionless {
+  template <int Dim, class T>
+  scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
+                                      scarp::ContactMemory<Dim, T>&) const {
+    T const nothing = approach.overlap - approach.overlap;
+    return {.normal = nothing / nothing};
+  }
+};
 struct KeepsScalar : ForgetsScalar {
   static constexpr scarp::ContactInputs inputs{.scalars = 1};
 };
@@ -179,6 +206,9 @@ TEST_CASE("a law names what it uses of the contact and keeps") {
                        scarp::InputError);
   CHECK_THROWS_WITH_AS(scarp::require_consistent(ForgetsScalar{{1e6}}, radius), doctest::Contains(".scalars = 0"),
                        scarp::InputError);
+  CHECK_REFUSED(scarp::require_consistent(ForgetsBond{{1e6}}, radius), "writes the scalar 0");
+  CHECK_REFUSED(scarp::require_consistent(ForgetsSlip{{1e6}}, radius), "writes the scalar 1");
+  CHECK_REFUSED(scarp::require_consistent(NoNumber{{1e6}}, radius), "a number is expected");
   CHECK_NOTHROW(scarp::require_consistent(KeepsScalar{{{1e6}}}, radius));
 }
 

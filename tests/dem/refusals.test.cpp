@@ -135,6 +135,10 @@ TEST_CASE("a law that is exchanged for one without sense is refused, too") {
 
 TEST_CASE("parameters of a servo and of its loading are refused") {
   CHECK_NOTHROW(reach_with([](auto&, auto&) {})());
+  CHECK_NOTHROW(reach_with([](auto&, auto& loading) {  // constant volume to second order, and a held mean stress
+    loading = {.controls = {{scarp::Tensor<2>::Identity(), -samples::pressure}}};
+    loading.gradient_per_step.diagonal() << 1e-6, -1e-6 / (1.0 + 1e-6);
+  })());
   check_refused({
       {"between checks of the servo is 0", reach_with([](auto& servo, auto&) { servo.check_every = 0; })},
       {"between checks of the servo is -20", reach_with([](auto& servo, auto&) { servo.check_every = -20; })},

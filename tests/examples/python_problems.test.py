@@ -521,8 +521,13 @@ rejected(ValueError, "an inflow has no effect", lambda: wet.water(shear_modulus=
 deep = scarp.Model(scarp.box_mesh("quad4", [2.0, 1.0], [2, 1]))
 deep.fix("bottom")
 deep.material("soil", scarp.ground_of_discs(grains=50, depths=[30.0, 31.0], surcharge=4e3, unit_weight=16e3))
-rejected(ValueError, "the ground has no packing of that depth", lambda: scarp.Analysis(deep))
-rejected(ValueError, "threads is given", lambda: scarp.mohr_coulomb(young=1e7, threads=2))
+rejected(ValueError, "its ground was made for other depths", lambda: scarp.Analysis(deep))
+weightless = scarp.Model(scarp.box_mesh("quad4", [2.0, 1.0], [2, 1]))
+weightless.fix("bottom")
+weightless.fix(["left", "right", "left"], 0)
+weightless.material("soil", scarp.ground_of_discs(grains=50, depths=weightless.depths(), surcharge=1e5, unit_weight=0.0))
+expect(abs(scarp.Analysis(weightless).stresses[:, 1] / -1e5 - 1.0).max() < 0.01, "weightless ground has another stress")
+rejected(ValueError, "threads is 2", lambda: scarp.mohr_coulomb(young=1e7, threads=2))
 
 # A material in Python that fails.
 

@@ -27,8 +27,6 @@ CASES = [
     ([], "device=none\nelement=tri3\n", "fault_rupture"),
     ([], "# element=quad8\nno-element=quad8\nelement-size=2\n", "fault_rupture"),
     (["--element", "quad4"], "element=quad8\n", "fault_rupture_quad4"),
-    (["ensemble"], "element=quad8\n[sensitivity]\nelement=quad4\n[ensemble]\nseeds=3\n", "fault_rupture_quad8"),
-    (["ensemble"], "element=quad8\n[ensemble]\nelement=quad4\n", "fault_rupture_quad4"),
 ]
 
 with tempfile.TemporaryDirectory() as folder:
@@ -39,15 +37,19 @@ with tempfile.TemporaryDirectory() as folder:
     said = scratch / "said"
     environment = {**os.environ, "PATH": f"{scratch}:{os.environ['PATH']}", "SAID": str(said)}
 
-    def run(*arguments):
+    def run(*arguments, example="fault_rupture"):
         said.write_text("")
-        done = subprocess.run([root / "examples/run", "fault_rupture", *arguments], cwd=scratch, env=environment, capture_output=True, text=True)
+        done = subprocess.run([root / "examples/run", example, *arguments], cwd=scratch, env=environment, capture_output=True, text=True)
         return done, said.read_text().strip()
 
     for arguments, lines, program in CASES:
         (scratch / "site.ini").write_bytes(lines.encode())
         done, built = run(*arguments, *(["--config", "site.ini"] if lines else []))
         expect(done.returncode == 9 and built == program, f"{arguments} and a file with {lines!r} build '{built}', not {program}: {done.stderr}")
+    (scratch / "tests.ini").write_text("[shear]\noutput=test\n[test]\ndevice=cuda\n")
+    for arguments, program in ((["shear"], "rve_lab"), (["--config", "tests.ini", "shear", "--output", "test"], "rve_lab"), (["test"], "rve_lab_device")):
+        done, built = run(*arguments, *([] if "--config" in arguments else ["--config=tests.ini"]), example="rve_lab")
+        expect(done.returncode == 9 and built == program, f"rve_lab {arguments} builds '{built}', not {program}: {done.stderr}")
     (scratch / "site.ini").write_text("water-table=0\ndevice=threads\n")
     done, built = run("--config=site.ini")
     expect(done.returncode == 2 and not built and "no program has both" in done.stderr, f"water on a device is no error: {done.stderr}")

@@ -246,8 +246,8 @@ def check_impossible_tables(folder):
     ratio = "axial_strain,volumetric_strain,stress_ratio"
     held = ["--lateral-stress", "1e5"]
     for head, row, more, named in (
-            (ratio, lambda t: (20 * t, -t, 2 * t), held, "axial_strain_percent where it is in per cent"),
-            (ratio, lambda t: (0.1 * t, -2 * t, t), held, "volumetric_strain_percent where it is in per cent"),
+            (ratio, lambda t: (20 * t, -t, 2 * t), held, "_percent where it is in per cent"),
+            (ratio, lambda t: (0.1 * t, -2 * t, t), held, "_percent where it is in per cent"),
             (ratio, lambda t: (0.1 * t, 0.04 - 0.1 * t, t), held, "is 0.04 at an axial strain of 0 (a test begins at 0)"),
             (ratio, lambda t: (0.1 * t * (0.8 - t), 0, t), held, "it is not to decrease"),
             ("axial_strain,q,p", lambda t: (0.1 * t, 4e5 * t, 100 + 133 * t), [], "give q and p in one unit"),
@@ -258,7 +258,8 @@ def check_impossible_tables(folder):
             ("axial_strain,void_ratio", lambda t: (0.1 * t, 0.7), held, "no stress_ratio, no q and p, and no volumetric_strain (line 1 names axial_strain, void_ratio"),
             ("axial_strain,q,p,volumetric_strain_pct", lambda t: (0.1 * t, 4e5 * t, 4e5 * (1 + t / 2), t), [], "column 'volumetric_strain_pct' that is not read"),
             ("axial_strain,stress_ratio,q,p", lambda t: (0.1 * t, t / (1 + t / 2), 4e5 * t, 4e5 * (1 + t / 2)), ["--strain", "0.01"], "--strain is 0.01 (the tables go to"),
-            ("engineering_axial_strain,stress_ratio", lambda t: (2 * t, t), held, "engineering_axial_strain_percent where it is in per cent"),
+            ("engineering_axial_strain,stress_ratio", lambda t: (2 * t, t), held, "_percent where it is in per cent"),
+            ("axial_strain,stress_ratio,engineering_vol_strain", lambda t: (0.1 * t, t, 0.01 * t), held, "engineering_vol_strain' that is not read"),
             ("eps_percent,stress_ratio", lambda t: (0.1 * t, t), held, "(line 1 names eps_percent, stress_ratio; axial_strain, axial_strain_percent, eps1")):
         table(head, row)
         code, said = run(LAB, "calibrate", "--grains", "60", "--table", "impossible.csv", *more, "--output", "none", folder=folder)

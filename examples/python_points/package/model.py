@@ -18,7 +18,11 @@ Amplitude = Sequence[Tuple[float, float]]
 
 
 def _names(sides: Sides) -> List[str]:
-    names = [sides] if isinstance(sides, str) else list(sides)
+    return [sides] if isinstance(sides, str) else list(sides)
+
+
+def _loaded(sides: Sides) -> List[str]:
+    names = _names(sides)
     for name in names:
         if names.count(name) > 1:
             raise ValueError(f"the boundary {name!r} is named twice in one call (its load would double): name it once")
@@ -126,11 +130,11 @@ class Model:
 
     def traction(self, sides: Sides, force: Sequence[float], amplitude: Optional[Amplitude] = None) -> None:
         """Force per area [Pa], shape (dim,), on boundaries of the initial mesh."""
-        self._do("traction", _names(sides), np.array(force, dtype=float), _knots(amplitude))
+        self._do("traction", _loaded(sides), np.array(force, dtype=float), _knots(amplitude))
 
     def surcharge(self, sides: Sides, pressure: float, amplitude: Optional[Amplitude] = None) -> None:
         """Vertical pressure [Pa], downwards, on boundaries of the initial mesh."""
-        self._do("surcharge", _names(sides), float(pressure), _knots(amplitude))
+        self._do("surcharge", _loaded(sides), float(pressure), _knots(amplitude))
 
     def water(self, shear_modulus: float, clock: Amplitude, conductivity: float = 0.0, grain: float = 0.0, void_ratio: float = 0.7,
               bulk_modulus: float = 2.2e9, drained: Sides = (), pressures: Optional[Mapping[str, Any]] = None,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "scarp/contact/contact_law.hpp"
@@ -45,38 +46,47 @@ void require_consistent(Law const& law, double radius) {
         "act): add `.moment = true` to its inputs, or give no rolling stiffness",
         stiffness.rolling);
   }
-  double reduced_radius = radius / 2.0;
   ContactMemory<2, double> memory;
-  auto const forces = [&](double overlap, double closing, double sliding = 0.0) {
+  auto const require_remembered = [&] {
+    for (std::size_t k = detail::index(Law::inputs.scalars); k < memory.scalars.size(); ++k) {
+      if (memory.scalars[k] != 0.0)
+        reject(
+            "the contact law writes the scalar {} of a contact (its inputs name .scalars = {}, so it would be "
+            "forgotten): name as many as it uses",
+            k, Law::inputs.scalars);
+    }
+  };
+  double reduced_radius = radius / 2.0;
+  auto const forces = [&](double overlap, double closing, double sliding = 0.0, double slip = 0.0) {
     memory = {};
     if constexpr (Bonds<Law>) {
       if (overlap < 0.0) Law::bond(memory);
+      require_remembered();
     }
     ContactKinematics<2, double> const approach{.overlap = overlap,
-                                                .slip_increment = 0.0,
+                                                .slip_increment = slip,
                                                 .reduced_radius = reduced_radius,
                                                 .overlap_increment = closing,
                                                 .tangential_increment = sliding,
                                                 .reduced_mass = 1.0,
-                                                .time_step = 1e-6};
-    return law.respond(approach, memory);
+                                                .time_step = 1e-6,
+                                                .species = {1.0, 1.0}};
+    auto const found = law.respond(approach, memory);
+    require_remembered();
+    return found;
   };
   auto const still = forces(depth, 0.0);
-  for (std::size_t k = detail::index(Law::inputs.scalars); k < memory.scalars.size(); ++k) {
-    if (memory.scalars[k] != 0.0)
-      reject(
-          "the contact law writes the scalar {} of a contact (its inputs name .scalars = {}, so it would be "
-          "forgotten): "
-          "name as many as it uses",
-          k, Law::inputs.scalars);
-  }
+  if (!std::isfinite(still.normal))
+    reject("the contact law has a force of {} N at an overlap of {} m (a number is expected): check its parameters",
+           still.normal, depth);
+  auto const slid = forces(depth, 0.0, 0.0, depth);
   if constexpr (!Law::inputs.radius) {
     reduced_radius = 0.0;
-    if (forces(depth, 0.0).normal != still.normal)
+    auto const without = forces(depth, 0.0, 0.0, depth);
+    if (without.normal != slid.normal || without.shear != slid.shear)
       reject(
           "the contact law's force depends on the reduced radius (its inputs do not name .radius, so it would be "
-          "zero): "
-          "add `.radius = true` to its inputs");
+          "zero): add `.radius = true` to its inputs");
     reduced_radius = radius / 2.0;
   }
   if (Law::inputs.motion && damping_ratio_of(law) == 0.0 &&
