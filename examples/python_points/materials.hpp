@@ -109,7 +109,6 @@ struct Umat {
 template <class Packing>
 struct StartPackings {
   std::variant<scarp::RandomChoice<scarp::SamePacking<Packing>>, scarp::PackingsByDepth<Packing>> of{};
-
   std::vector<double> depths{};  ///< [m] that ground was asked for; empty where packings serve at any
 
   Packing const& at(scarp::Site<Packing::dim> const& site) const {
