@@ -91,12 +91,12 @@ class TimeStepper {
   }
 
   /// One time step while the cell follows the displacement gradient `strain_step` (velocity gradient x time step).
-  /// When it observes, `observed` receives the state before the move.
   template <Observe what = Observe::nothing>
     requires(what == Observe::nothing)
   Verdict step(PackingType& packing, Law const& law, Tensor<dim> const& strain_step) {
     return step<what>(packing, law, strain_step, nullptr);
   }
+  /// The same; when it observes, `observed` receives the state before the move.
   template <Observe what = Observe::nothing>
   Verdict step(PackingType& packing, Law const& law, Tensor<dim> const& strain_step, StepObservation<dim>* observed) {
     if constexpr (in_library) {

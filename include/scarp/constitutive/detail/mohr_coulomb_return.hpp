@@ -120,6 +120,14 @@ class MohrCoulombReturn {
     return {};
   }
 
+  // A system of at most four equations: loops over it compile in a fifth of the time of Eigen's fixed sizes.
+  using System = std::array<std::array<double, 4>, 4>;
+  using Unknowns = std::array<double, 4>;
+  /// Inverse of the first `size` rows and columns by elimination with partial pivoting; returns the determinant, and
+  /// where that is zero no inverse.
+  static double invert(System matrix, std::size_t size, System& inverse);
+  static Unknowns product(System const& matrix, Unknowns const& vector, std::size_t size);
+
   /// With exactly these planes active.
   PrincipalReturn attempt(int count, std::array<int, 3> const& active, Vector<3> const& trial, double slack) const;
 
@@ -131,13 +139,7 @@ class MohrCoulombReturn {
   int count_ = 0;
 };
 
-/// A system of at most four equations. Loops over it compile in a fifth of the time of Eigen's fixed sizes.
-using SmallMatrix = std::array<std::array<double, 4>, 4>;
-using SmallVector = std::array<double, 4>;
-
-/// Inverse of the first `size` rows and columns by elimination with partial pivoting; returns the determinant, and
-/// where that is zero no inverse.
-SCARP_DEFINITIONS double invert(SmallMatrix matrix, std::size_t size, SmallMatrix& inverse) {
+SCARP_DEFINITIONS double MohrCoulombReturn::invert(System matrix, std::size_t size, System& inverse) {
   inverse = {};
   for (std::size_t i = 0; i < size; ++i) inverse[i][i] = 1.0;
   double determinant = 1.0;
@@ -167,9 +169,9 @@ SCARP_DEFINITIONS double invert(SmallMatrix matrix, std::size_t size, SmallMatri
   return determinant;
 }
 
-/// matrix * vector
-SCARP_DEFINITIONS SmallVector product(SmallMatrix const& matrix, SmallVector const& vector, std::size_t size) {
-  SmallVector sums{};
+SCARP_DEFINITIONS MohrCoulombReturn::Unknowns MohrCoulombReturn::product(System const& matrix, Unknowns const& vector,
+                                                                         std::size_t size) {
+  Unknowns sums{};
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j < size; ++j) sums[i] += matrix[i][j] * vector[j];
   }
@@ -187,7 +189,7 @@ SCARP_DEFINITIONS PrincipalReturn MohrCoulombReturn::attempt(int count, std::arr
   double const part = bulk_ratio_ / (1.0 + std::abs(bulk_ratio_));
   std::array<Vector<3>, 4> rows;
   std::array<Vector<3>, 4> flows;  // the last one a unit of mean stress
-  SmallVector over{};
+  Unknowns over{};
   for (std::size_t k = 0; k < planes; ++k) {
     auto const& chosen = plane(active[k]);
     rows[k] = chosen.normal;
@@ -196,7 +198,7 @@ SCARP_DEFINITIONS PrincipalReturn MohrCoulombReturn::attempt(int count, std::arr
   }
   rows[planes].setConstant(part);
   flows[planes].setConstant(1.0);
-  SmallMatrix system{};
+  System system{};
   double norms = 1.0;
   for (std::size_t k = 0; k < unknowns; ++k) {
     for (std::size_t l = 0; l < unknowns; ++l) system[k][l] = rows[k].dot(flows[l]);
@@ -206,7 +208,7 @@ SCARP_DEFINITIONS PrincipalReturn MohrCoulombReturn::attempt(int count, std::arr
     norms *= std::sqrt(squares);
   }
   // Planes whose flows oppose one plastic strain only, such as all three of a frictionless prism, are no corner.
-  SmallMatrix inverse;
+  System inverse;
   if (!(std::abs(invert(system, unknowns, inverse)) > 1e-10 * norms)) return {};
   auto solution = product(inverse, over, unknowns);
   // Planes of much friction are nearly parallel.
@@ -219,9 +221,9 @@ SCARP_DEFINITIONS PrincipalReturn MohrCoulombReturn::attempt(int count, std::arr
   }
   PrincipalReturn result;
   result.stress = trial;
-  SmallMatrix carried{};  // unknowns for units of strain
+  System carried{};  // unknowns for units of strain
   for (int j = 0; j < 3; ++j) {
-    SmallVector strain{};
+    Unknowns strain{};
     for (std::size_t l = 0; l < unknowns; ++l) strain[l] = rows[l](j);
     carried[detail::index(j)] = product(inverse, strain, unknowns);
   }
