@@ -163,8 +163,7 @@ void declare_calibrate(CLI::App& app, CalibrateChoice& choice) {
                  "secant-dilation [degrees], void-ratio, e50 [Pa]");
   app.add_option("--table", choice.tables,
                  "of the laboratory: axial_strain, volumetric_strain (eps1, epsv; with _percent where they are; "
-                 "engineering_axial_strain where "
-                 "strains are over initial sizes, otherwise they are logarithmic), "
+                 "engineering_axial_strain where strains are over initial sizes, otherwise they are logarithmic), "
                  "stress_ratio, or q and p "
                  "(q_kPa, p_kPa)")
       ->check(CLI::ExistingFile);

@@ -169,8 +169,7 @@ struct LabTable {
       if (strain[row] > most_strain)
         scarp::reject(
             "{}: the axial strain is {} (at most {} is expected): let the name of its column end in _percent where it "
-            "is "
-            "in per cent",
+            "is in per cent",
             place(row), strain[row], most_strain);
       if (!volumetric.empty() && std::abs(volumetric[row]) > 3.0 * std::abs(strain[row]) + slight) {
         std::string const why = row == 0 ? "a test begins at 0): leave out what came before it"

@@ -141,6 +141,13 @@ TEST_CASE("results of a synthetic drained test") {
   CHECK(results.shear_modulus == Approx(deviator(first) / (2.0 * (2.0 * first - volume(first)))));
 }
 
+TEST_CASE("the peak of a plateau is where it begins, whatever its round-off is") {
+  auto const plateau = [](double axial) { return axial < 0.02 ? 100.0 * axial : 2.0 + 1e-13 * axial; };
+  auto const results = rve_lab::laboratory_results<2>(drawn(
+      plateau, [](double) { return 0.0; }, 0.1, 100));
+  CHECK(results.peak.length == Approx(0.02));
+}
+
 TEST_CASE("a stress ratio that rises to the end is no peak") {
   auto const nothing = [](double) { return 0.0; };
   auto const ends = [&](auto const& deviator, double end) {

@@ -37,6 +37,7 @@ def check_file(folder):
                                      "grains=60\nvoid-ratio-tolerance = 0.01\n")
     expect(prepared(folder, "file", "--sand", "own.sand", "--relative-density", "0.5") == by_options, "file and options give two packings")
     expect(prepared(folder, "written", "--sand", folder / "options/packing.sand") == by_options, "a sand that was written is another one")
+    expect("overconsolidation" not in (folder / "options/packing.sand").read_text(), "a sand without a vertical pressure takes the ground's preload away")
     for sand in sorted(SANDS.glob("*.sand")):
         jumps = ["--void-ratio-tolerance", "0.02"] if "relative-density" in sand.read_text() else []  # as few grains do
         prepared(folder, sand.stem, "--sand", sand, "--grains", "60", *jumps)
