@@ -80,7 +80,9 @@ void add_parts_of_an_iteration(Problem& problem, Table& table) {
   add("GMRES", [&] { system.solve(force); });
   auto gradients = problem.own_gradients();
   auto const* means = problem.points().means();
-  if (means) add("means of all gradients", [&] { means->means(gradients, problem.executor()); });
+  if (means)
+    add("means of all gradients",
+        [&] { means->mean().means(gradients, std::vector(gradients.size(), 1.0), problem.executor()); });
   add("sum of forces", [&] { static_cast<void>(problem.evaluate_committed()); });
   add("tangents of all points", [&] { problem.committed_tangents(); });
 }

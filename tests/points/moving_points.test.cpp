@@ -250,7 +250,7 @@ TEST_CASE("the stress that holds what means do not contain travels with a point"
   auto const gradient = [](int k) { return increment(1e-5 * (k * k + 1)); };
   Points from(soil, sites, volumes);
   for (int step = 1; step <= 2; ++step) strain(from, gradient);
-  REQUIRE(from.means()->committed_tau(3).norm() > 0.0);
+  REQUIRE(from.means()->committed(3).tau.norm() > 0.0);
   Points sent(soil, sites, volumes);
   Points copied(soil, sites, volumes);
   std::vector const all{0, 1, 2, 3, 4, 5};
@@ -263,7 +263,7 @@ TEST_CASE("the stress that holds what means do not contain travels with a point"
   Points image(soil, sites, volumes);
   image.copy(3, from, 3, true);
   auto const total = [](Points const& points) {
-    return scarp::VoigtStress<2>(points.committed_stress(3) + points.means()->committed_tau(3));
+    return scarp::VoigtStress<2>(points.committed_stress(3) + points.means()->committed(3).tau);
   };
   CHECK((total(image) - total(from)).norm() < 1e-12 * total(from).norm());
 }

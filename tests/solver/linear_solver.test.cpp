@@ -14,6 +14,7 @@
 #include "scarp/constitutive/linear_elastic.hpp"
 #include "scarp/core/interruption.hpp"
 #include "scarp/core/random.hpp"
+#include "scarp/points/nonlocal.hpp"
 #include "scarp/solver/equilibrium_problem.hpp"
 #include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/load_stepping.hpp"
@@ -225,7 +226,7 @@ TEST_CASE("an iteration that stagnates far from the solution is no solution") {
         std::pair{&partly<80>, scarp::Verdict{scarp::Status::not_converged, Reason::iterations_spent}},
         std::pair{&partly<-5>, scarp::Verdict{scarp::Status::failed, Reason::singular_system}}}) {
     scarp::MaterialPoints<2> points(soil, sites);
-    points.average({mean, hoods, tangents, iterate});
+    points.average(std::make_unique<scarp::NonlocalMeans<2>>(mean, hoods, tangents, iterate));
     scarp::Problem<2> problem(std::make_unique<UnitGrid>(mesh), std::move(points), constraints, still, serial);
     scarp::LinearisedStep<2> step(problem, 1e-3);
     REQUIRE(step.linearise(still, unbalanced, tangents).acceptable());

@@ -62,8 +62,9 @@ class AnyProvider {
   friend class MaterialPoints<Dim>;
 
   /// Finds the neighbours of all points: sites, volumes [m3], neighbourhoods, tangents [Pa] that they begin with.
-  using Means = PointMeans<Dim> (*)(std::span<Site<Dim> const>, std::span<double const>, std::span<Neighbourhood const>,
-                                    std::vector<VoigtTangent<Dim>> const&);
+  using Means = std::unique_ptr<PointMeans<Dim>> (*)(std::span<Site<Dim> const>, std::span<double const>,
+                                                     std::span<Neighbourhood const>,
+                                                     std::vector<VoigtTangent<Dim>> const&);
 
   std::unique_ptr<detail::PointBatch<Dim>> batch_;  ///< without points, but within MaterialPoints
   Neighbourhood neighbourhood_{};                   ///< of a point alone unless the material is nonlocal

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <any>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -93,14 +94,13 @@ class SCARP_EXPORT MaterialPoints {
   int size() const { return detail::count(places_); }  ///< Number of points, those of other processes included.
   /// Lets the points see means of their gradients from now on; nothing where every mean is the value itself.
   /// \throws InputError for means over another number of points
-  void average(PointMeans<Dim> means) {
-    if (means.mean().size() != size())
-      reject("means are over {} points (there are {}): make them of all sites", means.mean().size(), size());
-    means_.reset();
-    if (!means.mean().is_local()) means_ = std::move(means);
+  void average(std::unique_ptr<PointMeans<Dim>> means) {
+    if (means && means->mean().size() != size())
+      reject("means are over {} points (there are {}): make them of all sites", means->mean().size(), size());
+    means_ = means && !means->mean().is_local() ? std::move(means) : nullptr;
   }
   /// Means that the points see; null where each sees its own gradient.
-  PointMeans<Dim> const* means() const { return means_ ? &*means_ : nullptr; }
+  PointMeans<Dim> const* means() const { return means_.get(); }
 
   /// Cauchy stress [Pa] of a point's committed state, without the stabilising stress of means.
   VoigtStress<Dim> committed_stress(int point) const { return batch(point).stress(local(point)); }
@@ -212,7 +212,7 @@ class SCARP_EXPORT MaterialPoints {
   Stresses balanced_stresses(Executor const& executor) const {
     Stresses values = committed_stresses(executor);
     if (!means_) return values;
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] += means_->committed_tau(static_cast<int>(k));
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += means_->committed(static_cast<int>(k)).tau;
     return values;
   }
   /// Tangent [Pa] of a point's trial state.
@@ -276,10 +276,10 @@ class SCARP_EXPORT MaterialPoints {
 
   std::vector<AnyProvider<Dim>> materials_;  ///< with the batches of their points
   std::vector<Place> places_;
-  std::vector<int> owned_;                ///< points of this process
-  std::optional<PointMeans<Dim>> means_;  ///< nothing where each point sees its own gradient
-  bool is_planned_ = false;               ///< whether inner steps are fixed for the load step
-  bool has_trial_ = false;                ///< whether there is a response since the last commit or discard
+  std::vector<int> owned_;        ///< points of this process
+  detail::HeldMeans<Dim> means_;  ///< none where each point sees its own gradient
+  bool is_planned_ = false;       ///< whether inner steps are fixed for the load step
+  bool has_trial_ = false;        ///< whether there is a response since the last commit or discard
   Gradients own_;
   Gradients seen_;
   Responses responses_;

@@ -79,7 +79,7 @@ class PointPath {
       : points_(points), settings_(detail::validated(settings)) {
     for (int k = 0; k < points.size(); ++k) {
       VoigtStress<Dim> stress = points.committed_stress(k);
-      if (auto const* means = points.means()) stress += means->committed_tau(k);
+      if (auto const* means = points.means()) stress += means->committed(k).tau;
       courses_.push_back({.stress = stress, .tangent = points.committed_tangent(k)});
     }
     load(std::move(conditions));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <utility>
 
+#include "scarp/solver/detail/contact_following.hpp"
 #include "scarp/solver/problem.hpp"
 
 namespace scarp {
@@ -22,12 +24,18 @@ class EquilibriumProblem final : public Problem<GridType::dim> {
   EquilibriumProblem(GridType grid, MaterialPoints<dim> points, Constraints constraints, LoadHistory loads,
                      Executor& executor, Attached... attached)
       : Problem<dim>(std::make_unique<GridType>(std::move(grid)), std::move(points), std::move(constraints),
-                     std::move(loads), executor, together(std::move(attached)...)) {}
+                     std::move(loads), executor, together(std::move(attached)...), following<Attached...>()) {}
 
   /// Mesh and elements, committed.
   GridType const& discretisation() const { return static_cast<GridType const&>(Problem<dim>::grid()); }
 
  private:
+  template <class... Attached>
+  static constexpr detail::MakeFollowing<Problem<dim>> following() {
+    constexpr bool with_body = ((!detail::NamesField<Attached> && !std::same_as<Attached, NoAttachment>) || ...);
+    if constexpr (with_body) return &detail::follow_contact<dim>;
+    return nullptr;
+  }
   template <class... Attached>
   static detail::Attachments<dim> together(Attached... attached) {
     detail::Attachments<dim> all;

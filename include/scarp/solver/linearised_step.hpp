@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "scarp/solver/detail/contact_following.hpp"
+#include "scarp/solver/detail/body_following.hpp"
 #include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/problem.hpp"
 #include "scarp/solver/step_report.hpp"
@@ -26,7 +26,7 @@ class LinearisedStep {
   /// accuracy: residual below which the attachment's forces need no further correction
   LinearisedStep(Problem& problem, double accuracy, LinearSolverFactory solver = sparse_lu)
       : problem_(problem), system_(problem.constraints(), std::move(solver)) {
-    if (problem.has_attachment()) contact_.emplace(problem, system_, accuracy);
+    if (auto const make = problem.following()) contact_ = make(problem, system_, accuracy);
   }
   LinearisedStep(LinearisedStep const&) = delete;  // what follows contact refers to the system
   LinearisedStep& operator=(LinearisedStep const&) = delete;
@@ -75,7 +75,7 @@ class LinearisedStep {
   Problem& problem_;
   LinearSystem system_;
   detail::LinearisedGround ground_;
-  std::optional<detail::ContactFollowing<Dim>> contact_;  ///< where bodies are attached
+  std::unique_ptr<detail::BodyFollowing> contact_;  ///< null unless bodies are attached
   double committed_condition_ = 0.0;
   int committed_weak_dof_ = -1;
   bool is_held_ = false;  ///< all bodies, when the system was linearised

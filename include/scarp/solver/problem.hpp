@@ -18,6 +18,7 @@
 #include "scarp/core/executor.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/points/material_points.hpp"
+#include "scarp/solver/detail/body_following.hpp"
 #include "scarp/solver/detail/ground_stiffness.hpp"
 #include "scarp/solver/detail/part_residuals.hpp"
 #include "scarp/solver/linear_system.hpp"
@@ -32,11 +33,12 @@ class SCARP_EXPORT Problem {
  public:
   static constexpr int dim = Dim;  ///< of the mesh
 
-  /// loads [N], shape (degrees of freedom of mesh, body and field)
+  /// loads [N], shape (degrees of freedom of mesh, body and field); follow: what an attached body needs
   /// \throws InputError for sizes that do not fit together
   Problem(std::unique_ptr<Grid<Dim>> grid, MaterialPoints<Dim> points, Constraints constraints, LoadHistory loads,
-          Executor& executor, detail::Attachments<Dim> attached = {})
+          Executor& executor, detail::Attachments<Dim> attached = {}, detail::MakeFollowing<Problem> follow = nullptr)
       : attached_(std::move(attached)),
+        follow_(follow),
         grid_(detail::present(std::move(grid))),
         points_(std::move(points)),
         executor_(executor),
@@ -86,6 +88,7 @@ class SCARP_EXPORT Problem {
   }
   /// Derivative of these forces [N/m] where they were requested last, shape (dof_count, dof_count).
   SparseMatrix attached_stiffness() const { return attached_.part_stiffness(dof_count()); }
+  detail::MakeFollowing<Problem> following() const { return follow_; }  ///< For `LinearisedStep`; null without a body.
   /// Stiffness [N/m] as if no contact slid, shape (dof_count, dof_count).
   SparseMatrix stick_stiffness() const { return attached_.stick_stiffness(dof_count()); }
   /// Derivative of a field's forces [N/m] where they were requested last, shape (dof_count, dof_count).
@@ -127,9 +130,7 @@ class SCARP_EXPORT Problem {
     for (auto const& gradient : gradients()) largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
     return largest;
   }
-
-  /// Whether the rotation in a gradient turns the stress that is there.
-  bool turns_stresses() const { return grid_->turns_stresses(); }
+  bool turns_stresses() const { return grid_->turns_stresses(); }  ///< Whether rotations turn the stress that is there.
 
   /// Fixes every point's work for the load step from a predicted increment [m], shape (dof_count), and its gradient.
   /// \param worst_point where given, a point of the element that the increment turns inside out, -1 for none
@@ -199,13 +200,12 @@ class SCARP_EXPORT Problem {
     return parts;
   }
 
-  /// Imbalance of a body over its own loads, which reactions would hide (0 without loads).
+  /// Of a body over its own loads, which reactions would hide (0 without loads).
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
     return residuals_.beside(unbalanced, load_now_, load_);
   }
 
-  /// Whether all materials' tangents are the derivatives of their responses.
-  bool have_exact_tangents() const { return points_.have_exact_tangents(); }
+  bool have_exact_tangents() const { return points_.have_exact_tangents(); }  ///< Whether all are derivatives.
   /// Tangents of all points' committed states.
   std::vector<VoigtTangent<Dim>> committed_tangents() const { return points_.committed_tangents(executor_); }
   /// Tangents of all points' trial states, which belong to the last evaluation.
@@ -226,7 +226,6 @@ class SCARP_EXPORT Problem {
     StateWriter writer;
     attached_.write(writer);
   }
-
   /// What evolves from step to step: a new problem with these resumes as the one that they were saved from.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) {
@@ -280,6 +279,7 @@ class SCARP_EXPORT Problem {
   }
 
   detail::Attachments<Dim> attached_;
+  detail::MakeFollowing<Problem> follow_;
   std::unique_ptr<Grid<Dim>> grid_;
   MaterialPoints<Dim> points_;
   Executor const& executor_;

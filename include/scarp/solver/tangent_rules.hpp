@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <concepts>
 #include <limits>
 #include <type_traits>
 
 #include "scarp/core/error.hpp"
+#include "scarp/core/precompiled.hpp"
 #include "scarp/tensor/finite_strain.hpp"
 #include "scarp/tensor/voigt.hpp"
+#ifdef SCARP_DEFINITIONS
+#include <Eigen/Eigenvalues>
+#endif
 
 namespace scarp {
 
@@ -44,6 +48,12 @@ concept ChoosesTangentRule = requires(Rule const& rule) {
   requires TangentRule<std::remove_cvref_t<decltype(rule.learned)>, Dim>;
 };
 
+namespace detail {
+/// A tangent [Pa] raised until no eigenvalue of its symmetric part is below `least` [Pa].
+template <int Dim>
+SCARP_EXPORT VoigtTangent<Dim> raised(VoigtTangent<Dim> const& tangent, double least);
+}  // namespace detail
+
 /// Tangents that learn at every material point: each iteration's change of strain and stress corrects the point's
 /// tangent by Broyden's rank-one update, so that thousands of points gather curvature at once where a global
 /// quasi-Newton method gathers one direction. A step starts from a mix of the provider's tangent and what the last step
@@ -76,19 +86,7 @@ struct PointwiseBroyden {
     double const squared = strain_change.squaredNorm();
     if (!(squared > min_strain_change * min_strain_change)) return tangent;
     tangent += (stress_change - tangent * strain_change) * strain_change.transpose() / squared;
-    return raised<Dim>(tangent, floor * provider.trace() / voigt_size<Dim>);
-  }
-
- private:
-  template <int Dim>
-  static VoigtTangent<Dim> raised(VoigtTangent<Dim> const& tangent, double least) {
-    Eigen::SelfAdjointEigenSolver<VoigtTangent<Dim>> const parts((tangent + tangent.transpose()) / 2.0);
-    VoigtTangent<Dim> lifted = tangent;
-    for (int k = 0; k < voigt_size<Dim>; ++k) {
-      double const missing = least - parts.eigenvalues()(k);
-      if (missing > 0.0) lifted += missing * parts.eigenvectors().col(k) * parts.eigenvectors().col(k).transpose();
-    }
-    return lifted;
+    return detail::raised<Dim>(tangent, floor * provider.trace() / voigt_size<Dim>);
   }
 };
 
@@ -149,5 +147,18 @@ SecantPair<Dim> corotated_secant_pair(Gradient<Dim> const& from, Gradient<Dim> c
   Tensor<Dim> const unturned = moved.turn.transpose() * from_voigt_stress<Dim, double>(after) * moved.turn;
   return {to_engineering_strain<Dim, double>(moved.strain), to_voigt_stress<Dim, double>(unturned) - before};
 }
+
+#ifdef SCARP_DEFINITIONS
+template <int Dim>
+VoigtTangent<Dim> detail::raised(VoigtTangent<Dim> const& tangent, double least) {
+  Eigen::SelfAdjointEigenSolver<VoigtTangent<Dim>> const parts((tangent + tangent.transpose()) / 2.0);
+  VoigtTangent<Dim> lifted = tangent;
+  for (int k = 0; k < voigt_size<Dim>; ++k) {
+    double const missing = least - parts.eigenvalues()(k);
+    if (missing > 0.0) lifted += missing * parts.eigenvectors().col(k) * parts.eigenvectors().col(k).transpose();
+  }
+  return lifted;
+}
+#endif
 
 }  // namespace scarp

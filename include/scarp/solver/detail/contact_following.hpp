@@ -2,46 +2,34 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
+#include "scarp/core/precompiled.hpp"
+#include "scarp/solver/detail/body_following.hpp"
 #include "scarp/solver/detail/standing_balance.hpp"
 #include "scarp/solver/linear_system.hpp"
 #include "scarp/solver/problem.hpp"
 
 namespace scarp::detail {
 
-/// Forces of a ground that was linearised about an increment.
-struct LinearisedGround {
-  GroundStiffness stiffness;
-  Eigen::VectorXd centre;  ///< that increment [m]
-  Eigen::VectorXd forces;  ///< internal forces of the elements less the loads, at the centre [N]
-
-  /// Unbalanced forces [N] when the loads have grown by `more` [N].
-  Eigen::VectorXd unbalanced(Eigen::VectorXd const& increment, Eigen::VectorXd const& more) const {
-    return forces + stiffness * (increment - centre) - more;
-  }
-};
-
 /// Balances a linearised ground with what is attached to it: contact that opens, closes or slides is followed where no
 /// material point is evaluated.
 template <int Dim>
-class ContactFollowing {
+class SCARP_EXPORT ContactFollowing final : public BodyFollowing {
  public:
   /// accuracy: residual below which the attachment's forces need no further correction
   ContactFollowing(Problem<Dim>& problem, LinearSystem& system, double accuracy)
       : problem_(problem), system_(system), accuracy_(accuracy), body_(problem) {}
 
-  /// Whether the contacts of the last evaluation support the body in every direction.
-  bool is_held() const { return body_.is_held(); }
-
-  /// The ground's stiffness with that of the attachment where it was evaluated last.
-  Verdict factorize(LinearisedGround const& ground) { return factorize(ground, problem_.attached_stiffness()); }
+  bool is_held() const override { return body_.is_held(); }
+  Verdict factorize(LinearisedGround const& ground) override {
+    return factorize(ground, problem_.attached_stiffness());
+  }
 
   /// Newton's method; attached bodies are balanced at every place that is tried. Where Newton's direction
   /// leads to no smaller imbalance, that of held contacts is followed as far as the unbalanced forces do work.
-  /// \param increment [m], kept at its prescribed entries
-  /// \param more [N] by which the loads have grown since the linearisation
-  Verdict follow(LinearisedGround const& ground, Eigen::VectorXd& increment, Eigen::VectorXd const& more) {
+  Verdict follow(LinearisedGround const& ground, Eigen::VectorXd& increment, Eigen::VectorXd const& more) override {
     Eigen::VectorXd const still = Eigen::VectorXd::Zero(increment.size());
     body_.begin();
     Tried now = balance({increment, still, ground.unbalanced(increment, more), still}, 0.0);
@@ -171,5 +159,15 @@ class ContactFollowing {
   double accuracy_;
   StandingBalance<Dim> body_;
 };
+
+template <int Dim>
+std::unique_ptr<BodyFollowing> follow_contact(Problem<Dim>& problem, LinearSystem& system, double accuracy) {
+  return std::make_unique<ContactFollowing<Dim>>(problem, system, accuracy);
+}
+
+#ifdef SCARP_PRECOMPILED
+extern template class ContactFollowing<2>;
+extern template class ContactFollowing<3>;
+#endif
 
 }  // namespace scarp::detail
