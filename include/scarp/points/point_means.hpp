@@ -96,11 +96,12 @@ class PointMeans {
   }
 
  protected:
+  /// iteration: solves linear systems of stiffnesses that are not assembled
   PointMeans(NeighbourMean mean, LinearIteration iteration) : mean_(std::move(mean)), iterate_(iteration) {}
-  virtual std::array<double, 4> basis() const = 0;
+  virtual std::array<double, 4> basis() const = 0;  ///< Numbers that distinguish these means from others.
 
-  NeighbourMean mean_;
-  LinearIteration iterate_;
+  NeighbourMean mean_;       ///< neighbours and weights
+  LinearIteration iterate_;  ///< solver
 };
 
 namespace detail {
