@@ -16,6 +16,7 @@
 #include "own_folders.hpp"
 #include "pilot.hpp"
 #include "run_scene.hpp"
+#include "scarp/io/text_lines.hpp"
 #include "sensitivity_runs.hpp"
 #include "site_options.hpp"
 
@@ -64,6 +65,8 @@ void make_study(Choice& choice) {
 void declare_materials(CLI::App& app, Choice& choice) {
   using examples::number_from;
   examples::declare_sand_file(app, choice.sand_file);
+  app.add_option("--layer", choice.layer_files,
+                 "depth=file: sand of that file from a depth [m] down, with the same contacts; several, each deeper");
   app.add_option("--preparation-friction", choice.preparation_friction, "sets the density of the packing")
       ->check(number_from(0.0, true, 10.0));
   app.add_option("--overconsolidation-ratio", choice.overconsolidation_ratio,
@@ -284,6 +287,40 @@ void declare_options(CLI::App& app, Choice& choice, examples::Output& output, st
   examples::declare_config(app);
 }
 
+/// The sands below that of the surface, as --sand reads one. Depth and ends of the ground are known.
+void read_layers(CLI::App const& app, Choice& choice) {
+  if (choice.layer_files.empty()) return;
+  if (choice.soil != fault_rupture::Soil::dem)
+    scarp::reject("--layer '{}' is not used (layers are those of --soil dem): leave one of the two out",
+                  choice.layer_files.front());
+  auto const is_given = [&](std::string_view name) {
+    return name == "grains" || name == "seed" || (name == "overconsolidation-ratio" && app.count("--local") > 0);
+  };
+  auto const surface = fault_rupture::sand_of(choice);
+  double above = 0.0;
+  for (auto const& given : choice.layer_files) {
+    auto const equals = std::min(given.find('='), given.size());
+    double top = 0.0;
+    if (equals + 1 >= given.size() || scarp::read_number(given.substr(0, equals), top) != std::errc{})
+      scarp::reject("--layer is '{}' (a depth [m], '=' and the file of a sand are expected): write 8=dense.sand",
+                    given);
+    if (!(top > above && top < choice.depth))
+      scarp::reject("--layer '{}' begins {} m deep; expected more than {} and less than {} m: give the layers in order",
+                    given, top, above, choice.depth);
+    Choice usual;
+    usual.overconsolidation_ratio = choice.overconsolidation_ratio;
+    auto const sand = examples::read_sand(given.substr(equals + 1), fault_rupture::sand_of(usual), is_given);
+    for (auto const& [option, before, now] : examples::other_grains(surface, sand)) {
+      scarp::reject("--layer '{}' has {} {}, the ground above it {} (all layers have the same contacts): give the same",
+                    given, option, now, before);
+    }
+    if (choice.water_table && sand.conductivity > 0.0 && fault_rupture::rank() == 0)
+      examples::print(stderr, "warning: the conductivity of --layer '{}' is not used: all ground has --conductivity\n",
+                      given);
+    choice.layers.push_back({above = top, sand});
+  }
+}
+
 /// Names options that were given and that nothing of the scene uses.
 void warn_of_unused(CLI::App const& app, Choice const& choice) {
   using namespace fault_rupture;
@@ -362,6 +399,7 @@ int main(int argc, char** argv) {
   try {
     read_sand(app, choice);
     fault_rupture::choose_places(app, choice);
+    read_layers(app, choice);
     fault_rupture::choose_length_and_sizes(app, choice);
     fault_rupture::require_balance(choice);
     if (fault_rupture::rank() == 0) {

@@ -47,6 +47,10 @@ inline ChoiceLines choice_lines(Choice const& choice, CLI::App const& app) {
   lines("element", element_name);
   // What a file holds and not where it lies.
   if (!choice.sand_file.empty()) lines("sand", std::hash<std::string>{}(examples::text_of(choice.sand)));
+  for (auto const& [top, sand] : choice.layers) {
+    lines("layer", top);
+    lines("sand", std::hash<std::string>{}(examples::text_of(sand)));
+  }
   if (!choice.mesh.empty()) {
     lines("mesh", std::hash<std::string>{}(scarp::read_file(choice.mesh)));
     lines("mesh-order", choice.mesh_order);

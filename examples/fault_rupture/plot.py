@@ -15,9 +15,10 @@ import numpy as np
 import packing_figures
 import scarp_figures as figures
 import water_figures
-from field_figures import colour_limit, deviatoric_percent, draw_cells, draw_settlement, read_steps, status_note
+from field_figures import colour_limit, deviatoric_percent, draw_cells, draw_settlement, read_steps, status_note, triangles_of
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patheffects import withStroke
+from matplotlib.tri import Triangulation
 from scarp_figures import BLACK, BLUE, GREEN, GREY, VERMILION, plt
 
 # Of the free field of the reference study, sec. 4.1 [m]: shown where a run repeats its site.
@@ -86,6 +87,14 @@ def draw_bands(axes, summary, bedrock, depth):
     axes.legend(loc="lower left", fontsize=7)
 
 
+def draw_layers(axes, summary, grid, depths):
+    """Where another sand begins; depths: of the nodes before they moved [m]"""
+    tops = summary.get("layer_tops", [])
+    if tops:
+        axes.tricontour(Triangulation(*grid.points.T, triangles_of(grid)), depths, levels=tops, colors=BLACK, linestyles="dashdot", linewidths=1.1)
+        axes.plot([], [], "-.", color=BLACK, linewidth=1.1, label="top of another sand")
+
+
 def tip_of(summary):
     """x of the fault's tip [m]"""
     return float(summary.get("run", {}).get("options", {}).get("tip", 0.0))
@@ -114,10 +123,12 @@ def deformation(folder):
             upper.annotate(name, place, xytext=(6, 4), textcoords="offset points", color=PROBES[name], weight="bold",
                            path_effects=[withStroke(linewidth=2.0, foreground="white")])
     summary, depth = figures.read_summary(folder), layer_depth(folder)
-    bedrock = float(np.min((grid.points[:, :2] - figures.field(grid.at_nodes, "displacement", path)[:, :2])[:, 1]))
+    heights = (grid.points[:, :2] - figures.field(grid.at_nodes, "displacement", path)[:, :2])[:, 1]
+    bedrock = float(np.min(heights))
     for number, edge in enumerate(zip(*summary.get("strip_edges", []))):
         upper.plot(np.array(edge, dtype=float), np.linspace(bedrock, bedrock + depth, len(edge)), "--", color=GREY, linewidth=0.9, label=None if number else "strip of small elements")
     draw_fault(upper, summary, bedrock, depth)
+    draw_layers(upper, summary, grid, bedrock + depth - heights)
     upper.legend(loc="lower left", fontsize=7)
     upper.set_ylabel("y [m]")
     upper.set_title(f"Deformed mesh at h/H = {throw:.3g}, displacements to scale", loc="left")

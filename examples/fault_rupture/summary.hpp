@@ -173,6 +173,7 @@ inline nlohmann::ordered_json summary(Choice const& choice, Scene const& scene, 
   if (choice.soil == Soil::dem) {
     json["grains_per_rve"] = choice.grains;
     json["seed"] = choice.seed;
+    for (auto const& layer : choice.layers) json["layer_tops"].push_back(layer.top);
   }
   json["throw_over_depth"] = thrown / scene.ground.depth();
   json["k0"] = rest.k0;

@@ -80,12 +80,23 @@ def check_scenes(folder):
     """The file of the reference study is the default of the scene, to the bit; other grains give other results."""
     fault = example("fault_rupture")
     tiny = ["--quick", "--local", "--size", "12", "--grains", "64", "--throw-over-depth", "0.002", "--frames", "1"]
-    results = {}
-    for name, more in (("default", []), ("file", ["--sand", SANDS / "reference_study.sand"]), ("loose", ["--sand", SANDS / "loose.sand"])):
+    results, loosest = {}, {}
+    for name, more in (("default", []), ("file", ["--sand", SANDS / "reference_study.sand"]), ("loose", ["--sand", SANDS / "loose.sand"]),
+                       ("layers", ["--layer", f"8={SANDS / 'loose.sand'}", f"17={SANDS / 'reference_study.sand'}"])):
         code, said = run(fault, *tiny, *more, "--output", name, folder=folder)
         expect(code == 0, f"fault_rupture {name}: ended with {code}\n{said}")
-        results[name] = json.loads((folder / name / "summary.json").read_text())["void_ratio_min"] if code == 0 else None
+        summary = json.loads((folder / name / "summary.json").read_text()) if code == 0 else {}
+        results[name], loosest[name] = (summary.get(f"void_ratio_{end}") for end in ("min", "max"))
     expect(results["default"] == results["file"] != results["loose"], f"void ratios {results}")
+    expect(summary["layer_tops"] == [8.0, 17.0] and not summary["repeats_study"], f"a ground of layers: {summary}")
+    # Packings of a layer are compressed from its own top on, which is no other stress but other steps.
+    expect(abs(results["layers"] - results["default"]) < 1e-4 and results["loose"] < loosest["layers"] < loosest["loose"],
+           f"loose sand between 8 and 17 m: {results}, at most {loosest}")
+    for layers, what in ((["8"], "write 8=dense.sand"), (["8=none.sand"], "cannot read 'none.sand'"), ([f"25={SANDS / 'loose.sand'}"], "less than 25 m"),
+                         ([f"9={SANDS / 'loose.sand'}", f"8={SANDS / 'loose.sand'}"], "more than 9"),
+                         ([f"8={SANDS / 'fontainebleau.sand'}"], "friction 0.707, the ground above it 0.55")):
+        code, said = run(fault, *tiny, "--layer", *layers, "--output", "wrong", folder=folder)
+        expect(code == 2 and what in said and not (folder / "wrong").exists(), f"--layer {layers}: ended with {code}\n{said}")
     (folder / "once_loaded.sand").write_text("shape = ellipse\noverconsolidation-ratio = 2\n")
     code, said = run(fault, *tiny, "--sand", "once_loaded.sand", "--output", "once_loaded", folder=folder)
     expect(code == 0, f"fault_rupture, a sand that carried more: ended with {code}\n{said}")

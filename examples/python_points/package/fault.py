@@ -124,6 +124,8 @@ def _given(options: Mapping[str, Any], **others: str) -> tuple[str, Dict[str, Li
     keywords = dict(options)
     name, build = _program(keywords)
     keywords["sand"] = programs.sand_file(keywords.get("sand"))
+    if isinstance(keywords.get("layer"), Mapping):
+        keywords["layer"] = {depth: programs.sand_file(sand) for depth, sand in keywords["layer"].items()}
     programs.find(name, build)
     return name, program_options.given(name, keywords, **others)
 
@@ -167,7 +169,8 @@ def fault_rupture(folder: Folder = "output/fault_rupture", *, overwrite: bool = 
         Called with each line of the program; True draws a bar.
     **options
         Those of ``./examples/run fault_rupture --help`` with underscores, such as ``case="heavy"``, ``length=2.0`` [m], ``dip=60.0`` [degrees],
-        ``seeds=[1, 2, 3]``, ``quick=True``, ``budget={"residual": 1e-2}``. ``sand`` is a file, or a name such as ``"fontainebleau"``.
+        ``seeds=[1, 2, 3]``, ``quick=True``, ``budget={"residual": 1e-2}``. ``sand`` is a file, or a name such as ``"fontainebleau"``;
+        ``layer={8.0: "loose"}`` has another one below a depth [m].
         ``scarp.options("fault_rupture")`` has meanings, units and defaults.
 
     Returns

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "../entries.hpp"
@@ -107,21 +108,37 @@ inline constexpr char const* grain_options[] = {"shape",
                                                 "rolling-stiffness",
                                                 "rolling-friction"};
 
+/// A value of grains or contacts that two sands do not share.
+struct OtherGrains {
+  std::string option;
+  std::string before;
+  std::string now;
+};
+
+/// now: whose unused options do not count
+inline std::vector<OtherGrains> other_grains(Sand const& before, Sand const& now) {
+  std::vector<OtherGrains> others;
+  std::map<std::string, std::string> values;
+  for_each_option(before, [&](char const* name, auto const& value, Range, char const*) {
+    values[name] = fmt::format("{}", value);
+  });
+  for_each_option(now, [&](char const* name, auto const& value, Range, char const*) {
+    bool const counts = std::ranges::find(grain_options, std::string_view(name)) != std::end(grain_options) &&
+                        why_unused(now, name).empty();
+    if (auto text = fmt::format("{}", value); counts && text != values[name])
+      others.push_back({name, values[name], std::move(text)});
+  });
+  return others;
+}
+
 /// Notes on values of grains and contacts that a packing was not prepared with.
 inline std::vector<std::string> other_than_prepared(std::filesystem::path const& packing, Sand const& sand) {
   std::vector<std::string> notes;
   if (!std::filesystem::is_regular_file(sand_path(packing))) return notes;
   Sand const own = read_sand(sand_path(packing), {}, [](auto const&) { return false; });
-  std::map<std::string, std::string> before;
-  for_each_option(
-      own, [&](char const* name, auto const& value, Range, char const*) { before[name] = fmt::format("{}", value); });
-  for_each_option(sand, [&](char const* name, auto const& value, Range, char const*) {
-    bool const counts = std::ranges::find(grain_options, std::string_view(name)) != std::end(grain_options) &&
-                        why_unused(sand, name).empty();
-    if (counts && fmt::format("{}", value) != before[name])
-      notes.push_back(fmt::format("'{}' was prepared with {} {}, and {} is given: its grains lie as they were left",
-                                  packing.string(), name, before[name], value));
-  });
+  for (auto const& [option, before, now] : other_grains(own, sand))
+    notes.push_back(fmt::format("'{}' was prepared with {} {}, and {} is given: its grains lie as they were left",
+                                packing.string(), option, before, now));
   return notes;
 }
 

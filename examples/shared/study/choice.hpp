@@ -27,6 +27,12 @@ enum class Soil { dem, mohr_coulomb, elastic };
 enum class Base { tied, frictional };
 enum class MeshPattern { crossed, left, right, quads, jittered };
 
+/// Ground of another sand.
+struct Layer {
+  double top = 0.0;  ///< depth [m]
+  examples::Sand sand;
+};
+
 /// What a user may choose; the reference study's free field on a mesh for a ten-minute run.
 struct Choice {
   Case scene = Case::free;
@@ -65,6 +71,8 @@ struct Choice {
   double grain_friction = 0.55;          ///< coefficient between grains
   std::string sand_file{};
   examples::Sand sand{.shape = "ellipse"};        ///< of that file; what members before name counts first, see sand_of
+  std::vector<std::string> layer_files{};         ///< depth=file of each of the next ones
+  std::vector<Layer> layers{};                    ///< below that sand, each below the one before
   double peak_friction_angle = 30.8;              ///< [degrees], of Mohr-Coulomb ground, as the next three
   double peak_dilation_angle = 6.6;               ///< [degrees]
   std::optional<double> residual_friction_angle;  ///< [degrees]; Bolton's, peak friction less 0.8 of the dilation
@@ -180,9 +188,12 @@ struct Choice {
 /// the mesh, the length and the grains of a packing are. With `study` any soil.
 bool repeats_study(Choice const& choice);
 
-/// The sand of a choice, with its grains, seed, density and friction.
+/// The sand at the surface, with the choice's grains, seed, density and friction.
 /// \throws scarp::InputError for grains that the scenes are not built for
 examples::Sand sand_of(Choice const& choice);
+
+/// All sands of the ground from the surface down, with the choice's grains and seed.
+std::vector<Layer> layers_of(Choice const& choice);
 
 /// DEM steps of scenes with a length: fewer than the reference study's scene has, with the same places
 /// (docs/notes/performance.md).

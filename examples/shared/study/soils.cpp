@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -59,23 +60,30 @@ std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 
 
 /// No more than what points draw, at the same time where threads are requested.
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
-  auto const sand = sand_of(choice);
-  auto const law = examples::law_of<Grains::Law>(sand);
+  auto const layers = layers_of(choice);
   auto depths = drawn_depths(choice, sites);
-  std::size_t const count = depths.size();
-  std::size_t const images = images_of(choice);
-  Columns columns{std::vector<scarp::PackingsByDepth<Grains>>(images * count), choice.seed};
-  scarp::ThreadExecutor executor(choice.packings > 1 ? choice.threads : 1);
-  executor.for_each(choice.packings, [&](int number) {
+  std::vector<scarp::PackingsByDepth<Grains>> parts(depths.size());
+  scarp::ThreadExecutor executor(depths.size() > 1 ? choice.threads : 1);
+  executor.for_each(static_cast<int>(depths.size()), [&](int number) {
     auto const k = static_cast<std::size_t>(number);
     if (depths[k].empty()) return;
-    auto const seed = k > 0 ? scarp::family_seed(sand.seed, k) : sand.seed;
-    columns.sources[k] = examples::level_ground<Grains>(sand, law, seed, choice.unit_weight, choice.surcharge,
-                                                        std::move(depths[k]), choice.buoyancy());
-    if (images == 1) return;
-    columns.sources[count + k] = columns.sources[k];
-    for (auto& packing : columns.sources[count + k].packings) packing = scarp::mirrored(std::move(packing));
+    auto const& sand = layers[k % layers.size()].sand;
+    auto const column = k / layers.size();
+    auto const seed = column > 0 ? scarp::family_seed(sand.seed, column) : sand.seed;
+    parts[k] = examples::level_ground<Grains>(sand, examples::law_of<Grains::Law>(sand), seed, choice.unit_weight,
+                                              choice.surcharge, std::move(depths[k]), choice.buoyancy());
   });
+  std::size_t const count = parts.size() / layers.size();
+  Columns columns{std::vector<scarp::PackingsByDepth<Grains>>(images_of(choice) * count), choice.seed};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    auto& column = columns.sources[k / layers.size()];
+    column.depths.insert(column.depths.end(), parts[k].depths.begin(), parts[k].depths.end());
+    std::ranges::move(parts[k].packings, std::back_inserter(column.packings));
+  }
+  for (std::size_t k = count; k < columns.sources.size(); ++k) {
+    columns.sources[k] = columns.sources[k - count];
+    for (auto& packing : columns.sources[k].packings) packing = scarp::mirrored(std::move(packing));
+  }
   return columns;
 }
 
@@ -101,7 +109,7 @@ bool repeats_study(Choice const& choice) {
   };
   if (!same(&Choice::depth, &Choice::left, &Choice::width, &Choice::unit_weight, &Choice::surcharge, &Choice::dip,
             &Choice::tip) ||
-      choice.reverse || choice.water_table)
+      choice.reverse || choice.water_table || !choice.layers.empty())
     return false;
   if (choice.study) return true;
   if (choice.soil == Soil::dem) return material_of(choice) == material_of(study);
@@ -121,11 +129,25 @@ examples::Sand sand_of(Choice const& choice) {
   return sand;
 }
 
+std::vector<Layer> layers_of(Choice const& choice) {
+  std::vector<Layer> layers{{0.0, sand_of(choice)}};
+  for (auto layer : choice.layers) {
+    layer.sand.grains = choice.grains;
+    layer.sand.seed = choice.seed;
+    layers.push_back(std::move(layer));
+  }
+  return layers;
+}
+
 std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const count = static_cast<std::size_t>(choice.packings);
-  std::vector<std::vector<double>> depths(count);
-  for (auto const& site : sites)
-    depths[Columns::drawn(choice.seed, site.index, images_of(choice) * count) % count].push_back(site.depth);
+  auto const& layers = choice.layers;
+  std::vector<std::vector<double>> depths(count * (1 + layers.size()));
+  for (auto const& site : sites) {
+    auto const below = std::ranges::find_if(layers, [&](auto const& layer) { return site.depth < layer.top; });
+    auto const column = Columns::drawn(choice.seed, site.index, images_of(choice) * count) % count;
+    depths[column * (1 + layers.size()) + static_cast<std::size_t>(below - layers.begin())].push_back(site.depth);
+  }
   for (auto& column : depths) {
     std::ranges::sort(column);
     auto const is_same = [](double a, double b) { return b - a < 1e-6; };

@@ -42,7 +42,8 @@ struct ElasticSoil : scarp::LinearElastic<2, scarp::GeostaticStress<2>> {
   static double max_displacement_gradient(bool) { return 0.02; }
 };
 
-/// Depths [m] at which points draw each column of packings, increasing; an image goes with what it mirrors.
+/// Depths [m] at which points draw each column of packings, increasing, for each layer apart: those of the first column come first. An image
+/// goes with what it mirrors.
 /// sites: of all points that will be sand
 std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites);
 
