@@ -93,10 +93,11 @@ def check_scenes(folder):
     expect(abs(results["layers"] - results["default"]) < 1e-4 and results["loose"] < loosest["layers"] < loosest["loose"],
            f"loose sand between 8 and 17 m: {results}, at most {loosest}")
     for layers, what in ((["8"], "write 8=dense.sand"), (["8=none.sand"], "cannot read 'none.sand'"), ([f"25={SANDS / 'loose.sand'}"], "less than 25 m"),
+                         ([f"24.9={SANDS / 'loose.sand'}"], "the layer from 24.9 m down has no integration point"),
                          ([f"9={SANDS / 'loose.sand'}", f"8={SANDS / 'loose.sand'}"], "more than 9"),
                          ([f"8={SANDS / 'fontainebleau.sand'}"], "friction 0.707, the ground above it 0.55")):
         code, said = run(fault, *tiny, "--layer", *layers, "--output", "wrong", folder=folder)
-        expect(code == 2 and what in said and not (folder / "wrong").exists(), f"--layer {layers}: ended with {code}\n{said}")
+        expect(code == 2 and what in said and not (folder / "wrong/summary.json").exists(), f"--layer {layers}: ended with {code}\n{said}")
     (folder / "once_loaded.sand").write_text("shape = ellipse\noverconsolidation-ratio = 2\n")
     code, said = run(fault, *tiny, "--sand", "once_loaded.sand", "--output", "once_loaded", folder=folder)
     expect(code == 0, f"fault_rupture, a sand that carried more: ended with {code}\n{said}")

@@ -62,6 +62,13 @@ std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const layers = layers_of(choice);
   auto depths = drawn_depths(choice, sites);
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    bool is_drawn = false;
+    for (std::size_t k = layer; k < depths.size(); k += layers.size()) is_drawn = is_drawn || !depths[k].empty();
+    if (!is_drawn)
+      scarp::reject("the layer from {} m down has no integration point (the mesh is coarser than it): refine the mesh",
+                    layers[layer].top);
+  }
   std::vector<scarp::PackingsByDepth<Grains>> parts(depths.size());
   scarp::ThreadExecutor executor(depths.size() > 1 ? choice.threads : 1);
   executor.for_each(static_cast<int>(depths.size()), [&](int number) {
