@@ -265,6 +265,8 @@ def check_calibration(folder):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of another sand the estimate is rough
         expect(scarp.fault_estimate(quick=True, sand=found.sand).points == 220, "a calibrated sand is no sand of the fault scene")
+    layered = scarp.fault_estimate(quick=True, layer={12.0: "loose"})
+    expect("2 columns of packings" in layered.text, f"a layer that is named without its file: {layered}")
     expect(programs.sand_file("fontainebleau").samefile(ROOT / "examples/sands/fontainebleau.sand"), "a sand is not found by its name")
 
 
