@@ -38,4 +38,9 @@ with tempfile.TemporaryDirectory() as folder:
                               capture_output=True, text=True)
         if (done.returncode == 0) != may_compile or (not may_compile and "add -fno-finite-math-only" not in done.stderr):
             faults.append(f"{' '.join(flags)}: {done.returncode} {done.stderr}")
+    source.write_text('#include "scarp/tensor/tensor.hpp"\n')
+    done = subprocess.run([compiler, "-std=c++20", f"-I{root / 'include'}", "-I/usr/include/eigen3", "-DEIGEN_DEFAULT_TO_ROW_MAJOR", "-fsyntax-only",
+                           str(source)], capture_output=True, text=True)
+    if done.returncode == 0 or "EIGEN_DEFAULT_TO_ROW_MAJOR is defined" not in done.stderr:
+        faults.append(f"matrices by rows: {done.returncode} {done.stderr}")
 sys.exit("\n".join(faults) or None)

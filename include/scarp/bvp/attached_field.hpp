@@ -17,7 +17,12 @@
 #include "scarp/bvp/grid.hpp"
 #include "scarp/bvp/load_history.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/io/state_bits.hpp"
+
+SCARP_NAMED_MEMBER(time_error)
+SCARP_NAMED_MEMBER(limit)
+SCARP_NAMED_MEMBER(grid)
 
 namespace scarp {
 
@@ -98,6 +103,16 @@ class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
   static_assert(Attachment<Part, Dim> && FieldAttachment<Part>,
                 "scarp: an attachment that is a field needs extra_dofs(), add_forces(), add_stiffness() and commit(), "
                 "at(), next_knot(), name(), residual(), describe(), nodal_fields() and ground_force()");
+  static constexpr bool has_time_error = requires(Part const& part) { part.time_error(); };
+  static_assert(has_time_error || !names_time_error<Part>,
+                "scarp: time_error of a field is never called: it needs `FieldTimeError time_error() const`");
+  static constexpr bool has_limit = requires(Part const& part, Eigen::VectorXd& next) { part.limit(next, next); };
+  static_assert(has_limit || !names_limit<Part>,
+                "scarp: limit of a field is never called: it needs "
+                "`void limit(Eigen::VectorXd const& last, Eigen::VectorXd& next) const`");
+  static constexpr bool has_grid = requires(Part const& part) { part.grid(); };
+  static_assert(has_grid || !names_grid<Part>,
+                "scarp: grid of a field is never called: it needs `Grid<Dim> const& grid() const`");
   using Base = AttachedAs<AttachedField<Dim>, Part>;
   using Base::part_;
 
@@ -107,7 +122,7 @@ class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
   void at(double load) override { part_.at(load); }
   double next_knot(double load) const override { return part_.next_knot(load); }
   FieldTimeError time_error() const override {
-    if constexpr (requires { part_.time_error(); }) return part_.time_error();
+    if constexpr (has_time_error) return part_.time_error();
     return {};
   }
   std::string name() const override { return part_.name(); }
@@ -116,10 +131,10 @@ class AttachedFieldOf final : public AttachedAs<AttachedField<Dim>, Part> {
   std::vector<NodalField> nodal_fields() const override { return part_.nodal_fields(); }
   Eigen::VectorXd ground_force() const override { return part_.ground_force(); }
   void limit(Eigen::VectorXd const& last, Eigen::VectorXd& next) const override {
-    if constexpr (requires { part_.limit(last, next); }) part_.limit(last, next);
+    if constexpr (has_limit) part_.limit(last, next);
   }
   Grid<Dim> const* grid() const override {
-    if constexpr (requires { part_.grid(); }) return &part_.grid();
+    if constexpr (has_grid) return &part_.grid();
     return nullptr;
   }
 };

@@ -12,9 +12,12 @@
 #include "scarp/bvp/grid.hpp"
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/status.hpp"
 #include "scarp/io/state_bits.hpp"
 #include "scarp/tensor/tensor.hpp"
+
+SCARP_NAMED_MEMBER(add_stick_stiffness)
 
 namespace scarp {
 
@@ -129,6 +132,11 @@ template <int Dim, class Part>
 class AttachedPartOf final : public AttachedAs<AttachedPart<Dim>, Part> {
   static_assert(Attachment<Part, Dim>,
                 "scarp: what is attached needs extra_dofs(), add_forces(), add_stiffness() and commit()");
+  static_assert(
+      requires(Part const& part, std::vector<Eigen::Triplet<double>>& entries) { part.add_stick_stiffness(entries); } ||
+          !names_add_stick_stiffness<Part>,
+      "scarp: add_stick_stiffness of what is attached is never called: it needs "
+      "`void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const`");
   using Base = AttachedAs<AttachedPart<Dim>, Part>;
   using Base::part_;
 

@@ -13,7 +13,10 @@
 
 #include "scarp/core/described.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/solver/step_report.hpp"
+
+SCARP_NAMED_MEMBER(ended)
 
 namespace scarp {
 
@@ -39,7 +42,11 @@ struct Observers {
   template <class Problem>
   void ended(Problem const& problem, double load) {
     boost::hana::for_each(parts, [&](auto& part) {
-      if constexpr (requires { own(part).ended(problem, load); }) own(part).ended(problem, load);
+      constexpr bool has_one = requires { own(part).ended(problem, load); };
+      static_assert(has_one || !detail::names_ended<std::remove_cvref_t<decltype(own(part))>>,
+                    "scarp: ended of an observer is never called: it needs "
+                    "`void ended(Problem const& problem, double load)`");
+      if constexpr (has_one) own(part).ended(problem, load);
     });
   }
 

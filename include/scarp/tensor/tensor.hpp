@@ -7,6 +7,10 @@
 
 #include "scarp/core/one_version.hpp"
 
+#ifdef EIGEN_DEFAULT_TO_ROW_MAJOR
+#error "scarp: EIGEN_DEFAULT_TO_ROW_MAJOR is defined (tensors go to UMATs and files by columns): leave it out"
+#endif
+
 namespace scarp {
 
 namespace detail {

@@ -353,6 +353,46 @@ struct Wrong : FollowingPressure<> {
 auto const size = sizeof(detail::AttachedFieldOf<2, Wrong>);
 }  // namespace case_field
 
+// first: time_error of a field is never called
+// also: limit of a field is never called
+// also: grid of a field is never called
+namespace case_options_of_field {
+struct Wrong : FollowingPressure<> {
+  static constexpr bool is_field = true;
+  void at(double) {}
+  double next_knot(double load) const { return load; }
+  std::string name() const { return {}; }
+  double residual(Eigen::VectorXd const&) const { return 0.0; }
+  std::string describe(int) const { return {}; }
+  std::vector<NodalField> nodal_fields() const { return {}; }
+  Eigen::VectorXd ground_force() const { return {}; }
+  double time_error(double) const { return 0.0; }
+  void limit(Eigen::VectorXd& next) const { next.setZero(); }
+  int grid(int) const { return 0; }
+};
+auto const size = sizeof(detail::AttachedFieldOf<2, Wrong>);
+}  // namespace case_options_of_field
+
+// first: add_stick_stiffness of what is attached is never called
+namespace case_option_of_attachment {
+struct Wrong : FollowingPressure<> {
+  void add_stick_stiffness(Eigen::SparseMatrix<double>&) const {}
+};
+auto const size = sizeof(detail::AttachedPartOf<2, Wrong>);
+}  // namespace case_option_of_attachment
+
+// first: ended of an observer is never called
+namespace case_option_of_observer {
+struct Wrong : NeverStops {
+  template <class Problem>
+  void attempted(Problem const&, StepReport const&) {}
+  template <class Problem>
+  void ended(Problem const&) {}
+};
+struct Ground {};
+void end(Observers<Wrong>& observers) { observers.ended(Ground{}, 1.0); }
+}  // namespace case_option_of_observer
+
 // first: a CheckpointedRun watches all other observers
 namespace case_observers {
 struct Notes {
