@@ -113,8 +113,8 @@ StudyPacking<Shape> const& consolidated(int grains) {
   return made.emplace(grains, std::move(prepared.packing)).first->second;
 }
 
-/// How the grains of several cells are numbered: copy after copy, or at random, as in a cloud, whose neighbours lie anywhere
-/// in memory.
+/// How the grains of several cells are numbered: copy after copy, or at random, as in a cloud, whose neighbours lie
+/// anywhere in memory.
 enum class Numbering { by_place, at_random };
 
 inline std::vector<std::size_t> numbers_of(std::size_t grains, Numbering numbering, scarp::Random& random) {
@@ -127,8 +127,8 @@ inline std::vector<std::size_t> numbers_of(std::size_t grains, Numbering numberi
   return numbers;
 }
 
-/// `copies` x `copies` cells side by side, with another scalar or law; the list of pairs is made anew, shear forces start
-/// from zero. Several copies get velocities of some mm/s at random, lest they stay copies of each other.
+/// `copies` x `copies` cells side by side, with another scalar or law; the list of pairs is made anew, shear forces
+/// start from zero. Several copies get velocities of some mm/s at random, lest they stay copies of each other.
 template <class PackingType>
 PackingType converted(StudyPacking<typename PackingType::Shape> const& from, int copies = 1,
                       Numbering numbering = Numbering::at_random) {
@@ -222,8 +222,9 @@ void settle(PackingType& packing, typename PackingType::Law const& law) {
   packing.rest();  // grains without contact fly on for ever and would make the list of pairs old
 }
 
-/// A packing in slow shear, made once for each type and number of grains: consolidated, brought to its law and precision, 400
-/// steps sheared, or 4000 where the law is another and grains must find new places. More than 1600 grains are copies of 1600.
+/// A packing in slow shear, made once for each type and number of grains: consolidated, brought to its law and
+/// precision, 400 steps sheared, or 4000 where the law is another and grains must find new places. More than 1600
+/// grains are copies of 1600.
 template <class PackingType>
 PackingType const& sheared(int grains, Numbering numbering = Numbering::at_random) {
   using Shape = typename PackingType::Shape;

@@ -7,8 +7,9 @@
 
 namespace scarp_benchmark {
 
-/// The parts of scarp::pair_forces, one by one. The passes over blocks of pairs run over the whole list each; responding and
-/// scattering work on the numbers of the first block, so that their data lie in the nearest cache as they do in the library.
+/// The parts of scarp::pair_forces, one by one. The passes over blocks of pairs run over the whole list each;
+/// responding and scattering work on the numbers of the first block, so that their data lie in the nearest cache as
+/// they do in the library.
 template <class PackingType>
 class Parts {
  public:
@@ -89,8 +90,8 @@ inline double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What a step takes beyond its forces, as the counter us_per_step: the quickest batch of 50 steps minus the quickest of 50
-/// calls of pair_forces.
+/// What a step takes beyond its forces, as the counter us_per_step: the quickest batch of 50 steps minus the quickest
+/// of 50 calls of pair_forces.
 template <class PackingType>
 void integration(benchmark::State& state, int grains) {
   auto const law = law_of_study<PackingType>();

@@ -22,8 +22,8 @@ inline void count_pairs(benchmark::State& state, std::size_t near_pairs, std::si
   state.counters["contacts"] = static_cast<double>(contacts);
 }
 
-/// Time of a step in slow shear. The list of pairs is made anew as often as it must: thousands of steps apart, which means
-/// not at all where there are so many grains that fewer are measured.
+/// Time of a step in slow shear. The list of pairs is made anew as often as it must: thousands of steps apart, which
+/// means not at all where there are so many grains that fewer are measured.
 template <class PackingType>
 void dem_step(benchmark::State& state, int grains, Numbering numbering = Numbering::at_random) {
   auto const law = law_of_study<PackingType>();

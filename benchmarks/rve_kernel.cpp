@@ -7,7 +7,8 @@ namespace {
 
 using namespace scarp_benchmark;
 
-/// Largest difference of force [N] and torque over lever [N] between both kernels, relative to the largest contact force.
+/// Largest difference of force [N] and torque over lever [N] between both kernels, relative to the largest contact
+/// force.
 template <class PackingType>
 double disagreement(PackingType packing, scarp::LinearFrictional const& law, scarp::LocalDamping const& damping,
                     double time_step) {

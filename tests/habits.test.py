@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
 """No range of CLI11 that NaN passes and no seed without a check; no tolerance of doctest's own Approx, which is absolute for numbers below
 one; no rejection that is tested by its type alone; no everyday word in a comment of include/scarp where the field has a term; a docstring for every
-public class, enumeration and concept there, and no report of a failure that may be dropped."""
+public class, enumeration and concept there, and no report of a failure that may be dropped; no comment that begins with "Of", and no line beyond
+120 columns in C++ and C, which the formatter leaves alone where it is a comment."""
 import pathlib
 import re
 import sys
@@ -28,10 +29,17 @@ for folder in ("tests", "benchmarks", "examples"):
                 line = text[:match.start()].count("\n") + 1
                 if "///" not in text.splitlines()[line - 1]:
                     faults.append(f"{path.relative_to(ROOT)}:{line}: {match[0].splitlines()[0]} {why}")
+for folder in ("include", "tests", "benchmarks", "examples"):
+    for path in sorted(path for path in (ROOT / folder).rglob("*") if path.suffix in (".hpp", ".cpp", ".h", ".c", ".cu")):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            if len(line) > 120 and not re.search(r'R"\(|\)"', line):
+                faults.append(f"{path.relative_to(ROOT)}:{number}: {len(line)} columns: wrap it at 120")
 comments = 0
 for path in sorted((ROOT / "include" / "scarp").rglob("*.[ch]pp")):
     for number, line in enumerate(path.read_text().splitlines(), 1):
         comment = re.search(r"//.*", line)
+        if comment and re.match(r"//[/<]* Of ", comment[0]):
+            faults.append(f"{path.relative_to(ROOT)}:{number}: a comment begins with 'Of': say what it is")
         comments += comment is not None
         for word, term in TERMS.items():
             if comment and (match := re.search(rf"\b({word})\b", comment[0], re.IGNORECASE)):

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// One DEM step of the same hundred round grains as discs or ellipses, with friction or without, watched or not: the same
-// places, near pairs and contacts for all, so that what differs between two of them is the price of a feature. benchmarks/absence/run
-// counts the instructions of measured_steps and measured_list.
+// One DEM step of the same hundred round grains as discs or ellipses, with friction or without, watched or not: the
+// same places, near pairs and contacts for all, so that what differs between two of them is the price of a feature.
+// benchmarks/absence/run counts the instructions of measured_steps and measured_list.
 //   price_of_a_step disc|ellipse smooth|frictional nothing|balance|energy
-//   price_of_a_step disc|ellipse species|fire|rim nothing   frictional contacts of two species, or moved by another policy
+//   price_of_a_step disc|ellipse species|fire|rim nothing   frictional contacts of two species, or moved by another
+//   policy
 #include <fmt/format.h>
 
 #include <string_view>

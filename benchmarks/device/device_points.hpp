@@ -26,7 +26,8 @@ class DevicePoints {
   using Device = scarp::BlockDevice<Types, scarp::LocalDamping>;          ///< where the points are
   using Parameters = scarp::BlockParameters<Types, scarp::LocalDamping>;  ///< of all responses
 
-  /// Point k starts with packing k modulo their number; each has its list of pairs. rooms: the device that sizes of states are those of
+  /// Point k starts with packing k modulo their number; each has its list of pairs. rooms: the device that sizes of
+  /// states are those of
   DevicePoints(std::shared_ptr<Device> device, std::vector<PackingType> const& packings, std::size_t points,
                Device const& rooms)
       : device_(std::move(device)), parameters_{law_of_study<PackingType>(), {}, scarp::default_time_step_share} {

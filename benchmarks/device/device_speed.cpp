@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// Are responses on a device those of the processor, and how many DEM steps does it take in a second? Prints tables of comma-separated
-// values.
+// Are responses on a device those of the processor, and how many DEM steps does it take in a second? Prints tables of
+// comma-separated values.
 //   device_speed bits DEVICE                       compares both; ends with 1 where they differ
-//   device_speed speed DEVICE POINTS SCENE_POINTS  DEM steps over numbers of points (33,66), and responses of a scene's points
-//   device_speed kernel                            the vector kernel, for comparison
+//   device_speed speed DEVICE POINTS SCENE_POINTS  DEM steps over numbers of points (33,66), and responses of a scene's
+//   points device_speed kernel                            the vector kernel, for comparison
 //   device_speed sanitize DEVICE                   a short response for tools that watch the memory
 // DEVICE is processor, or cuda in a program with CUDA.
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The free-field fault scene with a packing in every triangle and a nonlocal length, on a coarser mesh than the default's
-// with a quarter of its grains.
+// The free-field fault scene with a packing in every triangle and a nonlocal length, on a coarser mesh than the
+// default's with a quarter of its grains.
 #include <map>
 #include <tuple>
 

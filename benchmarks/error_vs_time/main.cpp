@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which error does a setting leave, and what does it cost? Packings, boundary-value problems, the fault scene, a user-defined scene.
+// Which error does a setting leave, and what does it cost? Packings, boundary-value problems, the fault scene, a
+// user-defined scene.
 #include <algorithm>
 #include <exception>
 #include <string_view>

@@ -35,8 +35,8 @@ struct Measured {
   }
 };
 
-/// Power of a setting by which an error shrinks, as neighbouring values of the setting show it. Estimates that differ by
-/// more than `agreement` are no order.
+/// Power of a setting by which an error shrinks, as neighbouring values of the setting show it. Estimates that differ
+/// by more than `agreement` are no order.
 struct ObservedOrder {
   static constexpr double agreement = 0.5;  ///< keeps first and second order apart
   static constexpr double beyond = 8.0;     ///< an estimate of this size is none
@@ -66,9 +66,9 @@ inline ObservedOrder order_of_errors(std::vector<double> const& sizes, std::vect
   return order;
 }
 
-/// Indices of the points that no other beats in cost and error at once, the cheapest first. Points without a finite cost
-/// and error never belong to it. Costs whose ratio is below 1 + noise count as equal: of such points the most accurate
-/// belongs to the front, and of equal errors the first.
+/// Indices of the points that no other beats in cost and error at once, the cheapest first. Points without a finite
+/// cost and error never belong to it. Costs whose ratio is below 1 + noise count as equal: of such points the most
+/// accurate belongs to the front, and of equal errors the first.
 inline std::vector<std::size_t> pareto_front(std::vector<double> const& costs, std::vector<double> const& errors,
                                              double noise = 0.0) {
   std::vector<std::size_t> order(costs.size());

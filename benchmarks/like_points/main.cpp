@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How much of the fault scene's work would shared responses save? Points that began with one packing and whose strain has differed by less
-// than a tolerance ever since could take the response of one of them.
+// How much of the fault scene's work would shared responses save? Points that began with one packing and whose strain
+// has differed by less than a tolerance ever since could take the response of one of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,8 @@ namespace {
 using Scene = scarp::FreeFieldFault<scarp::Nonlocal<fault_rupture::Sand>>;
 using Strain = scarp::Tensor<2>;
 
-/// Groups of points that could share their responses, for one tolerance of strain. A point that leaves its group never returns.
+/// Groups of points that could share their responses, for one tolerance of strain. A point that leaves its group never
+/// returns.
 struct Groups {
   double tolerance;
   std::vector<int> of_point{};  ///< number of the group

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // Our side of a comparison with another DEM code: writes a packing as text, and steps such a packing on command.
 //
-// our_steps make spheres|discs GRAINS FILE   a packing at 200 kPa in a box without tilt, made without friction: no shear
+// our_steps make spheres|discs GRAINS FILE   a packing at 200 kPa in a box without tilt, made without friction: no
+// shear
 //                                            forces yet, so that positions, radii and the law are the whole state
-// our_steps run spheres|discs FILE SPEED DT  from FILE with fluctuations of up to SPEED [m/s] and time steps DT [s]; commands
+// our_steps run spheres|discs FILE SPEED DT  from FILE with fluctuations of up to SPEED [m/s] and time steps DT [s];
+// commands
 //                                            come by standard input, one a line:
 //     start FILE   writes the state at the start, as `grains` below, with accelerations in the place of spins
 //     steps N      makes N steps; prints CPU nanoseconds, near pairs, lists made
@@ -124,7 +126,8 @@ struct Comparison {
     for (std::size_t i = 0; i < packing.grain_count(); ++i) {
       for (int a = 0; a < dim; ++a) packing.velocity(i, a) = random.uniform(-speed, speed);
     }
-    // Yade counts slip from the first step on, with the velocities of half a step before; LAMMPS begins with the next one.
+    // Yade counts slip from the first step on, with the velocities of half a step before; LAMMPS begins with the next
+    // one.
     if (dim == 2) packing.last_move.duration = time_step;
     if (!stepper.refresh(packing, law()).acceptable()) scarp::reject("'{}' has no list of near pairs", file);
     ++lists;

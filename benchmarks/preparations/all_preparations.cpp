@@ -5,7 +5,8 @@ namespace preparations {
 
 namespace {
 
-/// Those that are to hit the reference study's void ratio and K0 together, their numbers interpolated between the others'.
+/// Those that are to hit the reference study's void ratio and K0 together, their numbers interpolated between the
+/// others'.
 std::vector<Preparation> candidates() {
   return {
       {.path = "candidate: rising friction",

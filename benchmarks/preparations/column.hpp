@@ -28,7 +28,8 @@ class Columns {
   Columns(int grains, std::uint64_t seed) : grains_(grains), seed_(seed) {}
 
   /// overburdens [Pa], increasing
-  /// \return one packing for each, in their order where one isotropic packing serves all and they grow from its pressure
+  /// \return one packing for each, in their order where one isotropic packing serves all and they grow from its
+  /// pressure
   std::vector<AtDepth> make(Preparation const& preparation, std::span<double const> overburdens) {
     if (preparation.share > 0.0) return of_shares(preparation, overburdens);
     auto const& start = isotropic(preparation);

@@ -6,8 +6,9 @@
 
 namespace preparations {
 
-/// How a cloud of grains becomes the packing of a depth: isotropic consolidation at a first friction, where required more of it at
-/// a second one, then the overburden at zero lateral strain at a third one, then rest at the law's own friction.
+/// How a cloud of grains becomes the packing of a depth: isotropic consolidation at a first friction, where required
+/// more of it at a second one, then the overburden at zero lateral strain at a third one, then rest at the law's own
+/// friction.
 struct Preparation {
   std::string path;                 ///< its kind, by the name that the page gives it
   double isotropic_pressure = 2e3;  ///< [Pa], one packing for all depths

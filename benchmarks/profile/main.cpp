@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where does the time of the free-field fault scene go? Points by depth, strain and what sets their number of DEM steps, iterations by
-// cause, and everything outside of the points.
+// Where does the time of the free-field fault scene go? Points by depth, strain and what sets their number of DEM
+// steps, iterations by cause, and everything outside of the points.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// in_space ELEMENTS GRAINS: the free field as a slab of hexahedra with a packing of spheres in each of their points, a few load
-// steps; what they took, as JSON on stdout.
+// in_space ELEMENTS GRAINS: the free field as a slab of hexahedra with a packing of spheres in each of their points, a
+// few load steps; what they took, as JSON on stdout.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

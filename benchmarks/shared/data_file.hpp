@@ -24,8 +24,8 @@ inline std::string environment(char const* name, char const* otherwise) {
   return value != nullptr ? value : otherwise;
 }
 
-/// Writes a table of comma-separated values as data file NAME.csv behind a line with command, date, commit, machine, build
-/// and `more`, and prints a summary: by default its first twelve rows.
+/// Writes a table of comma-separated values as data file NAME.csv behind a line with command, date, commit, machine,
+/// build and `more`, and prints a summary: by default its first twelve rows.
 /// \throws FileError when the file cannot be written
 inline void write_data(std::string const& name, std::string const& table, std::string const& more = {},
                        std::string summary = {}) {

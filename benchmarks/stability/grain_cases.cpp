@@ -211,7 +211,8 @@ double growth(Law const& law, double share) {
   return speed() / before;
 }
 
-/// Steady at the default step, without bound at twenty times it (the bound of Hertz's law holds for deeper overlaps, too): the bound is neither missing nor idle.
+/// Steady at the default step, without bound at twenty times it (the bound of Hertz's law holds for deeper overlaps,
+/// too): the bound is neither missing nor idle.
 template <class Law>
 Case default_step(std::string const& name, Law const& law) {
   return {.group = "time step",

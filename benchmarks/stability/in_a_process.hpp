@@ -21,8 +21,8 @@ struct Judged {
   double seconds = 0.0;  ///< CPU time
 };
 
-/// Runs a case in a process of its own: an exception, a crash and CPU time beyond 20 s (600 s in full size) are failures,
-/// not the end.
+/// Runs a case in a process of its own: an exception, a crash and CPU time beyond 20 s (600 s in full size) are
+/// failures, not the end.
 inline Judged in_a_process(Case const& one, Size size) {
   struct Shared {
     bool ended, as_expected;

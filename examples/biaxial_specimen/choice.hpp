@@ -14,8 +14,8 @@ class GmshFile;
 
 namespace biaxial_specimen {
 
-/// Where the packings of the points come from: files, one packing for all points, or preparations of the reference study's
-/// ellipses.
+/// Where the packings of the points come from: files, one packing for all points, or preparations of the reference
+/// study's ellipses.
 struct Grains {
   std::string particles{};
   std::string contacts{};

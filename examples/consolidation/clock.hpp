@@ -10,8 +10,8 @@
 
 namespace consolidation {
 
-/// Times of a run whose load factor counts its steps: the load comes at 1, without time, and then time passes in stages whose steps
-/// grow by one factor.
+/// Times of a run whose load factor counts its steps: the load comes at 1, without time, and then time passes in stages
+/// whose steps grow by one factor.
 class Clock {
  public:
   /// first [s]: end of the first step, in which a boundary that drains is felt no farther than an element can show

@@ -28,7 +28,8 @@ struct Column {
 
   double consolidation() const { return mobility * modulus; }  ///< c_v [m2/s]
 
-  /// \f$ u/q = \sum_j \frac{4}{(2j-1)\pi} (-1)^{j-1} \cos\frac{(2j-1)\pi z}{2}\,e^{-(2j-1)^2\pi^2 T/4} \f$, z from the base
+  /// \f$ u/q = \sum_j \frac{4}{(2j-1)\pi} (-1)^{j-1} \cos\frac{(2j-1)\pi z}{2}\,e^{-(2j-1)^2\pi^2 T/4} \f$, z from the
+  /// base
   static double pressure(double time_factor, double height) {
     return sum(time_factor, [&](double root, double sign) { return sign * 2.0 / root * std::cos(root * height); });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Settlement and pore pressure of saturated ground in time: Terzaghi's column, and a strip load on a half plane (McNamee and Gibson).
+// Settlement and pore pressure of saturated ground in time: Terzaghi's column, and a strip load on a half plane
+// (McNamee and Gibson).
 #include <CLI/CLI.hpp>
 
 #include "../shared/command_line.hpp"

@@ -119,7 +119,8 @@ Found press(StripForms const& forms, StripMesh const& of) {
     auto const k = static_cast<std::size_t>(middle);
     return shear / load * (of.distance - analysis.problem().grid().positions()[k].y());
   };
-  // No water has left at once: the first step of ground that drains shows a layer of one element that has drained already.
+  // No water has left at once: the first step of ground that drains shows a layer of one element that has drained
+  // already.
   Analysis at_once(model_with(sealed), {.stepping = by_the_clock, .threads = 1});
   Analysis analysis(model_with(water), {.stepping = by_the_clock, .threads = 1});
   Found found{.run = joined(at_once.to(1.0), analysis.to(1.0)), .dofs = analysis.problem().dof_count()};

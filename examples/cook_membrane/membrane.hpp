@@ -11,8 +11,8 @@
 namespace cook_membrane {
 
 /// Cook's tapered panel in plane strain: corners (0, 0), (48, 44), (48, 60), (0, 44) m, thickness 1 m, left side
-/// clamped, a total force of 1 N upwards spread evenly over the right side. Geometry: Cook, J. Struct. Div. ASCE 100 (1974)
-/// 1851; Young's modulus as in Simo and Armero, Int. J. Numer. Meth. Engng 33 (1992) 1413.
+/// clamped, a total force of 1 N upwards spread evenly over the right side. Geometry: Cook, J. Struct. Div. ASCE 100
+/// (1974) 1851; Young's modulus as in Simo and Armero, Int. J. Numer. Meth. Engng 33 (1992) 1413.
 struct Panel {
   double young = 240.565;   ///< [Pa]
   double poisson = 0.4999;  ///< bulk modulus 5000 times the shear modulus

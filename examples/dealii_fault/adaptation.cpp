@@ -61,7 +61,8 @@ bool Ground::mark() {
 }
 
 /// Divides and joins cells, and shares points out anew where these change or processes have unequal DEM steps.
-/// Point p of a cell and child p of it lie in one corner: a child's points begin as copies of the one, and this as the child's outermost.
+/// Point p of a cell and child p of it lie in one corner: a child's points begin as copies of the one, and this as the
+/// child's outermost.
 void Ground::adapt() {
   double effort = 0.0;
   for (auto const& of : history_) effort += of.effort;
@@ -115,7 +116,8 @@ void Ground::adapt() {
   print("");
 }
 
-/// Gives every own point the state of a point before; only states that leave a process are sent. Every second copy is mirrored.
+/// Gives every own point the state of a point before; only states that leave a process are sent. Every second copy is
+/// mirrored.
 void Ground::carry(Points const& from, std::vector<Origin> const& origins) {
   std::map<unsigned, std::map<int, std::vector<int>>> takers;  // own points, by process and number there
   for (std::size_t k = 0; k < origins.size(); ++k) {
@@ -155,7 +157,8 @@ std::string Ground::identity() const {
                      options_.dip);
 }
 
-/// Mesh, displacements and states in the files of the forest, with a file of numbers, written last. The run saved before goes when this one is whole.
+/// Mesh, displacements and states in the files of the forest, with a file of numbers, written last. The run saved
+/// before goes when this one is whole.
 void Ground::save() {
   fs::path const folder = options_.checkpoint, next = options_.checkpoint + ".new",
                  before = options_.checkpoint + ".old";

@@ -43,7 +43,8 @@ void Ground::start_from_moved() {
   for (auto& cell : cells_) cell.at_start = cell.now = moved(cell.at_rest, nodal(cell, all));
 }
 
-/// Points respond to an increment [m] from the start of the step, or show their committed stresses; then forces are added up.
+/// Points respond to an increment [m] from the start of the step, or show their committed stresses; then forces are
+/// added up.
 Verdict Ground::evaluate(Vector const& increment, bool responds) {
   Vector const& moves = ghosted(increment);
   Verdict verdict;
@@ -207,7 +208,8 @@ Verdict Ground::settle() {
   return verdict;
 }
 
-/// Elastic ground of depth H settles by \f$ \gamma H^2 / 2M \f$ under its weight, M = E (1 - nu) / ((1 + nu) (1 - 2 nu)).
+/// Elastic ground of depth H settles by \f$ \gamma H^2 / 2M \f$ under its weight, M = E (1 - nu) / ((1 + nu) (1 - 2
+/// nu)).
 bool Ground::check_block() const {
   constexpr double agreed = 1e-5;  // strains are of the order 1e-6
   double const modulus = options_.young_modulus * 0.75 / (1.25 * 0.5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How does a program of deal.II take packings as its material? The reference study's fault on a distributed, adaptive mesh.
+// How does a program of deal.II take packings as its material? The reference study's fault on a distributed, adaptive
+// mesh.
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -47,7 +47,8 @@ struct OfPetsc {
   long* dots;
 };
 
-/// The reference study's ground over a normal fault in cells of deal.II, which its forest shares out among processes, with points of scarp.
+/// The reference study's ground over a normal fault in cells of deal.II, which its forest shares out among processes,
+/// with points of scarp.
 class Ground {
  public:
   Ground(Options const& options, MPI_Comm comm);

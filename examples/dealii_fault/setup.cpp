@@ -50,7 +50,8 @@ bool Ground::is_at_tip(dealii::Point<2> const& place) const {
   return place[1] == 0.0 && std::abs(place[0] - options_.tip) < near;
 }
 
-/// Cells at the tip have the last level from the beginning: later the step of the bedrock would stay as wide as a coarse cell.
+/// Cells at the tip have the last level from the beginning: later the step of the bedrock would stay as wide as a
+/// coarse cell.
 void Ground::divide_tip() {
   for (int level = 0; level < options_.levels; ++level) {
     for (auto const& cell : mesh_.active_cell_iterators()) {
@@ -86,7 +87,8 @@ void Ground::build() {
   make_points();
 }
 
-/// The sides and the bottom move with the walls of the fault; the node at its tip has the share that keeps the mean of the step.
+/// The sides and the bottom move with the walls of the fault; the node at its tip has the share that keeps the mean of
+/// the step.
 void Ground::prescribe() {
   constexpr double near = 1e-9;  // [m]
   double left = 1e300, right = 1e300;

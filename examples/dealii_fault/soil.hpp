@@ -17,7 +17,8 @@ inline constexpr double ground_depth = 25.0;  ///< [m]
 /// Makes points at sites with volumes [m3]; this process evaluates the first `own`, the others are seen by means.
 using PointMaker = std::function<Points(Sites const& sites, std::vector<double> const& volumes, int own)>;
 
-/// The reference study's soil of a choice and its intrinsic length. sites: of all processes, so that all prepare the same packings
+/// The reference study's soil of a choice and its intrinsic length. sites: of all processes, so that all prepare the
+/// same packings
 /// \throws scarp::InputError, scarp::PreparationError
 PointMaker soil_of(fault_rupture::Choice const& choice, Sites const& sites);
 

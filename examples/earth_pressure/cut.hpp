@@ -11,8 +11,8 @@ namespace earth_pressure {
 struct VerticalCut {
   double cohesion = 1.0;  ///< [Pa]
 
-  /// \f$ \gamma H/c \f$ has no closed form; static and kinematic bounds from the literature enclose it between 3.7752 and 3.7776
-  /// (no source at hand to cite). A triangle sliding on 45 degrees gives 4.
+  /// \f$ \gamma H/c \f$ has no closed form; static and kinematic bounds from the literature enclose it between 3.7752
+  /// and 3.7776 (no source at hand to cite). A triangle sliding on 45 degrees gives 4.
   static constexpr double stability_number = 3.776;
 };
 

@@ -33,8 +33,8 @@ bool walls(int levels, double gate) {
         earth_pressure::Wall const wall{.cohesion = cohesion, .passive = passive, .rough_base = rough_base};
         auto const name = fmt::format("{}, c {:g} kPa, {} base", passive ? "passive" : "active", cohesion / 1e3,
                                       rough_base ? "rough" : "smooth");
-        // On a smooth base the solution is exact on any mesh and the whole ground yields at once, which is slow on fine ones; on a
-        // rough base the corner of wall and base is singular.
+        // On a smooth base the solution is exact on any mesh and the whole ground yields at once, which is slow on fine
+        // ones; on a rough base the corner of wall and base is singular.
         int const meshes = rough_base ? levels : std::min(levels, 3);
         std::optional<double> wanted;
         if (!rough_base) wanted = gate;

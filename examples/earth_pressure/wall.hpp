@@ -17,7 +17,8 @@ struct Wall {
   bool rough_base = false;
   double young = 1e9;  ///< [Pa]
 
-  /// Rankine: \f$ E = K\gamma H^2/2 \mp 2 c \sqrt K H,\; K = \tan^2(45° \mp \varphi/2) \f$ [N/m]; tension is not cut off.
+  /// Rankine: \f$ E = K\gamma H^2/2 \mp 2 c \sqrt K H,\; K = \tan^2(45° \mp \varphi/2) \f$ [N/m]; tension is not cut
+  /// off.
   double force() const {
     double const sign = passive ? 1.0 : -1.0;
     double const root = std::tan(std::numbers::pi / 4.0 + sign * friction / 2.0);

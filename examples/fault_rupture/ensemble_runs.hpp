@@ -19,8 +19,8 @@
 
 namespace fault_rupture {
 
-/// Runs one scene with several packings in one process: the points of all share the threads, and what one does outside of its points
-/// runs in parallel to the points of another. Each has the bits of a run of its own.
+/// Runs one scene with several packings in one process: the points of all share the threads, and what one does outside
+/// of its points runs in parallel to the points of another. Each has the bits of a run of its own.
 struct EnsembleRuns {
   CLI::App const& app;
   examples::Output const& output;

@@ -106,8 +106,8 @@ Cost cost_of(Choice const& choice, SceneSize const& size, Control const& control
   double const throw_to = choice.throw_over_depth * size.depth;
   bool const packings = choice.soil == Soil::dem;
   bool const has_length = size.pairs > 0.0;
-  // More of the points are strained than on the uniform meshes of the model, whose band has 1.25 times the mean number of
-  // elements; the power is that of runs with lengths from 8 to 1 m.
+  // More of the points are strained than on the uniform meshes of the model, whose band has 1.25 times the mean number
+  // of elements; the power is that of runs with lengths from 8 to 1 m.
   double const crowding = size.min_area > 0.0 ? std::sqrt(std::max(1.0, mean_area / size.min_area / 1.25)) : 1.0;
   Cost cost{.steps = 1.0, .iterations = 1.0};
   if (packings) cost.dem_steps = size.points * choice.min_dem_steps;

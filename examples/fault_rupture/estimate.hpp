@@ -9,18 +9,19 @@
 
 namespace fault_rupture {
 
-/// What a run takes as a function of its choices, with numbers that benchmarks/scaling_laws has measured on one machine;
-/// docs/scaling.md has the equations. Times are CPU times [s].
+/// What a run takes as a function of its choices, with numbers that benchmarks/scaling_laws has measured on one
+/// machine; docs/scaling.md has the equations. Times are CPU times [s].
 struct CostModel {
   std::string date, commit, machine;
   double kernel = 0.0;  ///< kernel_seconds() there
-  /// [m] The throw of a load step at a displacement gradient of one: the root of (per_node h)^2 + (per_length l)^2, with
-  /// the mean distance h of the nodes and the length l.
+  /// [m] The throw of a load step at a displacement gradient of one: the root of (per_node h)^2 + (per_length l)^2,
+  /// with the mean distance h of the nodes and the length l.
   double width_per_node = 0.0, width_per_length = 0.0;
   /// Iterations of a step: value + by_decade log10(gradient/tolerance), at least one; without a length and with one.
   double iterations = 0.0, iterations_by_decade = 0.0;
   double iterations_with_length = 0.0, iterations_with_length_by_decade = 0.0;
-  /// Strain of a mean point over throw/depth: at_metre width^by_width (1 + by_throw throw/depth), with the width in 25 m of ground.
+  /// Strain of a mean point over throw/depth: at_metre width^by_width (1 + by_throw throw/depth), with the width in 25
+  /// m of ground.
   double strain_at_metre = 0.0, strain_by_width = 0.0, strain_by_throw = 0.0;
   double dem_step = 0.0, dem_step_by_grains = 0.0;  ///< value grains^power, as the next ones
   double tangent = 0.0;                             ///< of a point, in DEM steps

@@ -24,8 +24,8 @@ namespace {
 
 using fault_rupture::Choice;
 
-/// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is not one
-/// packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and fewer DEM steps.
+/// Beside the reference study's scene: a length, so that the response is not the mesh's, many packings, so that it is
+/// not one packing's (docs/notes/objectivity.md), K0 of 0.4 (docs/notes/preparations.md) and fewer DEM steps.
 void make_objective(Choice& choice) {
   choice.length = fault_rupture::short_length;
   choice.overconsolidation_ratio = 1.25;

@@ -36,8 +36,9 @@ SceneSize size_of_soil(Choice const& choice, std::vector<scarp::Site<2>> const& 
   return size;
 }
 
-/// Measured with meshes of 220 to 30 000 triangles and packings of 100 to 1600 grains: the program, mesh, matrices and, for packings,
-/// two states of each point; what is prepared, and the weights of means over a length, are with every process.
+/// Measured with meshes of 220 to 30 000 triangles and packings of 100 to 1600 grains: the program, mesh, matrices and,
+/// for packings, two states of each point; what is prepared, and the weights of means over a length, are with every
+/// process.
 double memory_of(Choice const& choice, SceneSize const& size, int processes) {
   constexpr double program = 9e6;
   double const means = 24.0 * size.pairs;  // half as much again as weights take, while their list grows

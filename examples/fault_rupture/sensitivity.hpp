@@ -39,7 +39,8 @@ struct SensitivityResult {
 };
 using SensitivityResults = std::map<std::string, SensitivityResult>;
 
-/// Results of sensitivity runs in a file, kept by the lines that describe a scene. Where there is no file, nothing is known.
+/// Results of sensitivity runs in a file, kept by the lines that describe a scene. Where there is no file, nothing is
+/// known.
 class SensitivityFile {
  public:
   /// \throws scarp::InputError for a file that is none of these

@@ -26,7 +26,8 @@ struct SensitivityRuns {
   std::chrono::steady_clock::time_point started;
   std::string commit{examples::commit()};
 
-  /// Runs those that the file does not have yet of this commit, each in a folder of its own. One that fails is left out with a warning.
+  /// Runs those that the file does not have yet of this commit, each in a folder of its own. One that fails is left out
+  /// with a warning.
   /// steps: of the scene's run
   void complete(std::vector<SensitivityRun> const& runs, int steps, SensitivityFile& file) const {
     scarp::StopSignal const stop;

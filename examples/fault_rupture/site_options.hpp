@@ -54,8 +54,8 @@ inline void declare_site(CLI::App& app, Choice& choice) {
       ->needs(table);
 }
 
-/// Places that follow from ground and fault where they are not given, as the reference study has them relative to the tip and to the
-/// fault's own line; recorded as if they were the defaults.
+/// Places that follow from ground and fault where they are not given, as the reference study has them relative to the
+/// tip and to the fault's own line; recorded as if they were the defaults.
 inline void choose_places(CLI::App& app, Choice& choice) {
   std::vector<std::string> notes;
   if (!choice.mesh.empty()) measure_mesh<Element>(choice, notes);

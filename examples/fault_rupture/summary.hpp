@@ -124,8 +124,9 @@ inline void add_rupture(nlohmann::ordered_json& json, scarp::RuptureSurvey const
   }
 }
 
-/// The strip of small elements: its edges, evenly from bedrock to the surface, and on bare ground the least distance between
-/// them and the band, which has gone from 5 to 95 % of the offset; a footing spreads the settlement beside the band. [m]
+/// The strip of small elements: its edges, evenly from bedrock to the surface, and on bare ground the least distance
+/// between them and the band, which has gone from 5 to 95 % of the offset; a footing spreads the settlement beside the
+/// band. [m]
 /// bottom: y of the bedrock in the mesh [m]
 inline void add_strip(nlohmann::ordered_json& json, PilotSize const& strip, scarp::RuptureSurvey const& survey,
                       double bottom, bool is_bare) {

@@ -11,7 +11,8 @@
 
 namespace fault_rupture {
 
-/// The run as text, beside what is expected of it and, where its site is the reference study's, beside that study's numbers.
+/// The run as text, beside what is expected of it and, where its site is the reference study's, beside that study's
+/// numbers.
 inline std::string table(nlohmann::ordered_json const& json) {
   auto const number = [&](char const* key) {
     return json.contains(key) && json[key].is_number() ? json[key].get<double>() : std::nan("");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where does a fault that dies out along its strike reach the surface? The reference study's free field as a slab in space, of spheres.
+// Where does a fault that dies out along its strike reach the surface? The reference study's free field as a slab in
+// space, of spheres.
 #include <algorithm>
 #include <set>
 #include <string_view>

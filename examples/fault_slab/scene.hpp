@@ -30,8 +30,9 @@ struct Scene : scarp::FreeFieldFault<scarp::Nonlocal<scarp::AnyProvider<3>>, sca
 
 using Grains = scarp::Packing<scarp::Sphere, scarp::LinearFrictional>;
 
-/// Sheets of points along the strike take packings by depth and their images in turn, each element one sheet of either: what a
-/// packing does sideways by accident is undone by its neighbour's, and a slab of one element is mirrored into one of many.
+/// Sheets of points along the strike take packings by depth and their images in turn, each element one sheet of either:
+/// what a packing does sideways by accident is undone by its neighbour's, and a slab of one element is mirrored into
+/// one of many.
 struct SheetsOfImages {
   scarp::PackingsByDepth<Grains> own{};
   scarp::PackingsByDepth<Grains> image{};

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSL-1.0 */
 /* Material points of scarp for programs in C, Fortran and all that call C.
 
-   A material is read from text (materials.hpp lists the keys); a batch has points of one material. Handles are freed by their
-   own function; a freed one is rejected, never followed. Functions return a scarp_status; after anything but SCARP_DONE
-   scarp_last_error() returns what is wrong and what to do. A batch may be used by several threads, one after the other.
+   A material is read from text (materials.hpp lists the keys); a batch has points of one material. Handles are freed by
+   their own function; a freed one is rejected, never followed. Functions return a scarp_status; after anything but
+   SCARP_DONE scarp_last_error() returns what is wrong and what to do. A batch may be used by several threads, one after
+   the other.
 
    Plane (dimension 2): gradients xx, xy, yx, yy; stresses xx, yy, xy. Space (3): gradients of nine numbers, rows first;
-   stresses xx, yy, zz, yz, zx, xy. Tangents: rows first, stress by strain with engineering shear. Tension is positive. [Pa] */
+   stresses xx, yy, zz, yz, zx, xy. Tangents: rows first, stress by strain with engineering shear. Tension is positive.
+   [Pa] */
 #ifndef SCARP_POINTS_H
 #define SCARP_POINTS_H
 
@@ -33,7 +35,7 @@ typedef enum {
   SCARP_FAILURE = 4 /* memory, threads, a packing that cannot be prepared */
 } scarp_status;
 
-/* Of a point's response: number of its status (ok 0, fluid 1, not_converged 2, failed 3), of the reason, both as text. */
+/* A point's response: number of its status (ok 0, fluid 1, not_converged 2, failed 3), of the reason, both as text. */
 typedef struct {
   int status;
   int reason;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSL-1.0 */
-/* The UMAT of libscarp_points: pointers only, by the interface that Abaqus publishes. docs/c_and_umat.md has the conventions.
+/* The UMAT of libscarp_points: pointers only, by the interface that Abaqus publishes. Conventions: docs/c_and_umat.md.
 
    umat_ has DDSDDE as Fortran has it, columns first; umat has it as C does, rows first.
-   PROPS, all optional: 1 number of the material (0: by CMNAME), 2 order of components (0 Abaqus, 1 Kratos), 3 source of the
-   increment (0 DSTRAN and DROT, 1 STRAN + DSTRAN as total strain, 2 DFGRD0 and DFGRD1), 4 height of the ground surface [m].
-   STATEV is zero at first. Wrong input, and a response that is not acceptable where PNEWDT is null, fill STRESS and DDSDDE
-   with NaN, so that no host continues in silence; the reason is in scarp_last_error() and on the error stream. */
+   PROPS, all optional: 1 number of the material (0: by CMNAME), 2 order of components (0 Abaqus, 1 Kratos), 3 source of
+   the increment (0 DSTRAN and DROT, 1 STRAN + DSTRAN as total strain, 2 DFGRD0 and DFGRD1), 4 height of the ground
+   surface [m]. STATEV is zero at first. Wrong input, and a response that is not acceptable where PNEWDT is null, fill
+   STRESS and DDSDDE with NaN, so that no host continues in silence; the reason is in scarp_last_error() and on the
+   error stream. */
 #ifndef SCARP_UMAT_H
 #define SCARP_UMAT_H
 

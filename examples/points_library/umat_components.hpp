@@ -66,8 +66,9 @@ struct Components {
 };
 
 /// Displacement gradient whose stretch has the strain E at its half-way configuration, and the rotation R before it:
-/// \f$ I + G = (I + E/2)(I - E/2)^{-1} R = (I + E (I - E/2)^{-1}) R \f$. `RotatedIncrement` finds E again, in axes that have not turned;
-/// DSTRAN and DROT of Abaqus are E and R. Zero strain, and what is zero out of a plane, stay exactly zero.
+/// \f$ I + G = (I + E/2)(I - E/2)^{-1} R = (I + E (I - E/2)^{-1}) R \f$. `RotatedIncrement` finds E again, in axes that
+/// have not turned; DSTRAN and DROT of Abaqus are E and R. Zero strain, and what is zero out of a plane, stay exactly
+/// zero.
 inline Tensor3 gradient_of(Tensor3 const& strain, Tensor3 const& rotation) {
   Tensor3 const identity = Tensor3::Identity();
   return strain * (identity - strain / 2.0).inverse() * rotation + (rotation - identity);

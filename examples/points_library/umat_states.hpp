@@ -37,10 +37,10 @@ struct Snapshot {
 };
 using State = std::shared_ptr<Snapshot const>;
 
-/// The latest snapshots of each point, for hosts whose STATEV is too short for a state. A point is named by a key, a snapshot by
-/// its generation. The state that a step starts from is in use, so it is never the oldest.
-/// Each trial of a first step has a key of its own, which is read once the trial is committed. Of keys that were never read the
-/// oldest are dropped.
+/// The latest snapshots of each point, for hosts whose STATEV is too short for a state. A point is named by a key, a
+/// snapshot by its generation. The state that a step starts from is in use, so it is never the oldest.
+/// Each trial of a first step has a key of its own, which is read once the trial is committed. Of keys that were never
+/// read the oldest are dropped.
 class Arena {
  public:
   static constexpr std::size_t kept = 4;
@@ -102,8 +102,8 @@ class Arena {
   std::uint64_t last_generation_ = 0;
 };
 
-/// STATEV as states: {1, bytes, hash, hash} and the state, six bytes in each number, or {2, key, generation, session}. All are whole
-/// numbers below 2^48: none is a NaN, and text of 15 digits keeps them.
+/// STATEV as states: {1, bytes, hash, hash} and the state, six bytes in each number, or {2, key, generation, session}.
+/// All are whole numbers below 2^48: none is a NaN, and text of 15 digits keeps them.
 class StateVariables {
  public:
   static constexpr int header = 4;

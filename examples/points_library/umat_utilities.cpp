@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// The routines of Abaqus that a user's UMAT may call, for programs that have it as provider: link this file where the linker misses them.
-// Arrays are as in a UMAT: normal components, then the shears 12, 13, 23; LSTR is 1 for stress and 2 for strain with engineering shear.
+// The routines of Abaqus that a user's UMAT may call, for programs that have it as provider: link this file where the
+// linker misses them.
+// Arrays are as in a UMAT: normal components, then the shears 12, 13, 23; LSTR is 1 for stress and 2 for strain with
+// engineering shear.
 #include <Eigen/Eigenvalues>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// What changes when every element's elastic law is replaced by a packing of grains? In the program: one template argument.
+// What changes when every element's elastic law is replaced by a packing of grains? In the program: one template
+// argument.
 #include "../shared/print.hpp"
 #include "../shared/version_option.hpp"
 #include "scarp/constitutive/linear_elastic.hpp"

@@ -36,8 +36,8 @@ using Progress = std::function<void(int, int, std::string const&)>;
 /// The UMAT of a shared library, which stays loaded. \throws InputError for one that cannot be loaded or has none
 scarp::Umat* umat_in(std::string const& file);
 
-/// Materials by name: members are the keywords that Python gives, `prepare` is called once before `provider`, which makes a
-/// provider from a prepared or a saved material.
+/// Materials by name: members are the keywords that Python gives, `prepare` is called once before `provider`, which
+/// makes a provider from a prepared or a saved material.
 template <int Dim>
 struct LinearElastic {
   double young = 0.0;  ///< [Pa]
@@ -329,7 +329,8 @@ struct Material {
   scarp::AnyProvider<Dim> provider;
 };
 
-/// bits: of the material with its keywords, not prepared yet. Compiled in one source, so that all programs get the same numbers.
+/// bits: of the material with its keywords, not prepared yet. Compiled in one source, so that all programs get the same
+/// numbers.
 /// \throws InputError, PreparationError, and what progress throws
 template <int Dim>
 Material<Dim> prepared(std::string const& kind, std::string_view bits, int threads, Progress const& progress);

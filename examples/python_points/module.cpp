@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How does Python call packings as materials? Points that respond to NumPy arrays, with their states inside: a biaxial test.
+// How does Python call packings as materials? Points that respond to NumPy arrays, with their states inside: a biaxial
+// test.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -17,8 +17,9 @@
 
 namespace python_points {
 
-/// A material that a program of Python has written as a class, see scarp.PythonMaterial. It sees the strain of an increment before its
-/// rotation, and its stress is rotated here. Its states are numbers of C++, so that they are saved and copied as all others.
+/// A material that a program of Python has written as a class, see scarp.PythonMaterial. It sees the strain of an
+/// increment before its rotation, and its stress is rotated here. Its states are numbers of C++, so that they are saved
+/// and copied as all others.
 /// \tparam Exact whether its tangents are the derivatives of its stresses
 template <int Dim, bool Exact>
 struct PythonMaterial {

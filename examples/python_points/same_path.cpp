@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// same_path POINTS PATH STRESSES THREADS: points of MaterialPoints.save respond to the displacement gradients of a path again, in C++.
-// PATH: for each response 1 where a commit follows, else 0, then the gradients of all points, rows first; STRESSES: of all responses.
+// same_path POINTS PATH STRESSES THREADS: points of MaterialPoints.save respond to the displacement gradients of a path
+// again, in C++.
+// PATH: for each response 1 where a commit follows, else 0, then the gradients of all points, rows first; STRESSES: of
+// all responses.
 // Numbers of double precision without anything between them.
 #include <chrono>
 #include <cstdio>

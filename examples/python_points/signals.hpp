@@ -15,7 +15,8 @@ namespace python_points {
 
 namespace py = pybind11;
 
-/// Ends long work by the exception of Python's signal handlers (Ctrl-C), which run where this was made: on Python's main thread.
+/// Ends long work by the exception of Python's signal handlers (Ctrl-C), which run where this was made: on Python's
+/// main thread.
 class Signals {
  public:
   /// Runs the handlers every now and then. \throws py::error_already_set once one of them has failed

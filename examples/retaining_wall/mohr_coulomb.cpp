@@ -6,8 +6,8 @@
 
 namespace retaining_wall {
 
-/// The reference study's angles, 30.8 and 6.6 degrees, without cohesion. Every mesh can hold Rankine's state exactly; what is
-/// allowed is a hundred times the solver's tolerance.
+/// The reference study's angles, 30.8 and 6.6 degrees, without cohesion. Every mesh can hold Rankine's state exactly;
+/// what is allowed is a hundred times the solver's tolerance.
 std::vector<Outcome> run_mohr_coulomb(Choice const& choice) {
   constexpr double degree = std::numbers::pi / 180.0;
   constexpr double tolerance = 1e-8;

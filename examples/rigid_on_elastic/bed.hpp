@@ -59,7 +59,8 @@ struct Layer {
   }
 };
 
-/// All load in one step. Stiffness times the round-off of places, up to 1e-7 of the loads here, bounds the tolerance from below.
+/// All load in one step. Stiffness times the round-off of places, up to 1e-7 of the loads here, bounds the tolerance
+/// from below.
 template <class Problem>
 scarp::RunReport load_once(Problem& problem, double tolerance = 1e-6) {
   examples::Newton const newton{.tolerance = tolerance, .divergence_limit = 1e9};

@@ -7,8 +7,8 @@
 
 namespace rigid_on_elastic {
 
-/// The ground and, on top of its middle, a block with nodes of its own: regions "soil" and "block", boundaries of the block
-/// "block_bottom", "block_top" and so on.
+/// The ground and, on top of its middle, a block with nodes of its own: regions "soil" and "block", boundaries of the
+/// block "block_bottom", "block_top" and so on.
 inline scarp::Mesh<scarp::Quad4> with_block(Layer const& layer, double height, int columns) {
   auto mesh = layer.mesh();
   int const rows = std::max(1, static_cast<int>(std::lround(columns * height / layer.width)));
@@ -54,7 +54,8 @@ auto block_problem(Layer const& layer, double contrast, double height, int colum
                              constraints, loads, executor, std::move(interface));
 }
 
-/// Settlement and tilt of a block's base, from its corners, under a force in the middle of its top and a couple at the top's ends.
+/// Settlement and tilt of a block's base, from its corners, under a force in the middle of its top and a couple at the
+/// top's ends.
 template <class Law>
 Motion elastic_block(Layer const& layer, double contrast, Law const& law) {
   examples::Stopwatch const watch;
@@ -92,7 +93,8 @@ inline examples::Outcome slide(double friction, int cells) {
   examples::Stopwatch const watch;
   Layer const layer{.cells = cells, .rigid = true};
   double const weight = 20e3;  // [N/m3]
-  // Softer than the block: it bulges under its weight, and points that begin to slide there keep Newton from settling it.
+  // Softer than the block: it bulges under its weight, and points that begin to slide there keep Newton from settling
+  // it.
   double const springs = 10.0 * layer.young / layer.width;
   scarp::LinearFrictional const law{.normal_stiffness = springs, .tangential_stiffness = springs, .friction = friction};
   auto problem = block_problem(

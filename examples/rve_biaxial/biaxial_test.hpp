@@ -26,8 +26,8 @@ struct Choice {
   double strain_per_step = 2e-6;       ///< axial, of one DEM step
 };
 
-/// Geotechnical view, compression positive, strains logarithmic. Stresses are means over the steps since the former row,
-/// everything else is the state at the row's strain.
+/// Geotechnical view, compression positive, strains logarithmic. Stresses are means over the steps since the former
+/// row, everything else is the state at the row's strain.
 struct Row {
   double axial_strain = 0.0;
   double lateral_strain = 0.0;
@@ -85,7 +85,8 @@ inline double inertial_number(Packing const& packing, Choice const& choice, doub
   return rate * 2.0 * grains.largest_radius() * std::sqrt(grains.density() / choice.pressure);
 }
 
-/// Drained biaxial compression: yy shortens at a constant rate, a servo keeps sigma_xx at the pressure, no shear strain.
+/// Drained biaxial compression: yy shortens at a constant rate, a servo keeps sigma_xx at the pressure, no shear
+/// strain.
 inline void compress(Packing packing, Choice const& choice, Result& result) {
   constexpr double strain_per_row = 2.5e-4;
   auto const law = study_law();

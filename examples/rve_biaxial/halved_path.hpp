@@ -9,8 +9,8 @@
 
 namespace rve_biaxial {
 
-/// A stretch of a packing's path, to be gone once more in steps of half the strain, hence at half the rate: what the mean stress
-/// over it then changes by estimates the error of the steps.
+/// A stretch of a packing's path, to be gone once more in steps of half the strain, hence at half the rate: what the
+/// mean stress over it then changes by estimates the error of the steps.
 /// \tparam PackingType a `Packing`
 /// \tparam Damping a `DampsMotion`
 template <class PackingType, class Damping = scarp::LocalDamping>
@@ -27,7 +27,8 @@ class HalvedPath {
     sum_ += stress;
   }
 
-  /// Relative difference of the mean stresses, Frobenius norms; infinite where the second path fails or has no number. Consumes the packing.
+  /// Relative difference of the mean stresses, Frobenius norms; infinite where the second path fails or has no number.
+  /// Consumes the packing.
   double difference(typename PackingType::Law const& law, scarp::TimeStepper<PackingType, Damping> stepper = {}) {
     scarp::Tensor<dim> other = scarp::Tensor<dim>::Zero();
     scarp::StepObservation<dim> seen;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How strong and how dilatant is the reference study's sand? Consolidates 400 ellipses and compresses them in a drained biaxial test.
+// How strong and how dilatant is the reference study's sand? Consolidates 400 ellipses and compresses them in a drained
+// biaxial test.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>

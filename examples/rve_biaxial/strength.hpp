@@ -20,8 +20,8 @@ struct Peak {
   double dilation_strain = std::nan("");
 };
 
-/// Eq. 8 of the reference study with sigma_1/sigma_3 = mean axial over mean lateral stress within the window, and eq. 9 with the
-/// strain increments from end to end of the window; only windows that lie wholly inside the test count.
+/// Eq. 8 of the reference study with sigma_1/sigma_3 = mean axial over mean lateral stress within the window, and eq. 9
+/// with the strain increments from end to end of the window; only windows that lie wholly inside the test count.
 inline Peak peak_angles(std::vector<Row> const& rows, double window) {
   constexpr double degrees = 180.0 / std::numbers::pi;
   Peak peak;

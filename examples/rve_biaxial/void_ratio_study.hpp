@@ -30,7 +30,8 @@ inline std::vector<std::span<Result const>> by_friction(std::span<Result const> 
   return groups;
 }
 
-/// The row at the middle of the window of 0.5 % axial strain, or of the whole of a shorter test, with the largest stress ratio.
+/// The row at the middle of the window of 0.5 % axial strain, or of the whole of a shorter test, with the largest
+/// stress ratio.
 inline Row const& peak_row(Result const& result) {
   double const window = std::min(0.005, result.rows.back().axial_strain - result.rows.front().axial_strain);
   double const strain = peak_angles(result.rows, window).friction_strain;

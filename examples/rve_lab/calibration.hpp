@@ -131,7 +131,8 @@ inline Eigen::VectorXd units(Calibration const& calibration, Evaluation const& s
   return units;
 }
 
-/// Differences in units of the scatter, weighted so that each group counts as one number: their squares sum to the squared misfit.
+/// Differences in units of the scatter, weighted so that each group counts as one number: their squares sum to the
+/// squared misfit.
 inline Eigen::VectorXd residuals(Calibration const& calibration, Eigen::VectorXd const& values,
                                  Eigen::VectorXd const& units) {
   std::vector<double> counts(calibration.groups());
@@ -145,7 +146,8 @@ inline Eigen::VectorXd residuals(Calibration const& calibration, Eigen::VectorXd
   return residuals;
 }
 
-/// Root mean square over the groups. The square of a void ratio that the grains do not have is added in units of its own bound.
+/// Root mean square over the groups. The square of a void ratio that the grains do not have is added in units of its
+/// own bound.
 inline double misfit(Calibration const& calibration, Evaluation const& one, Eigen::VectorXd const& units) {
   double const wanted = calibration.sand_at(one.shares).void_ratio;
   double const allowed = measure_named("void-ratio").reached;

@@ -28,7 +28,8 @@ inline Eigen::VectorXd start_of(Calibration const& calibration) {
   return shares;
 }
 
-/// Evaluates, prints a line for each evaluation, and keeps the best. A place whose packings cannot be prepared or tested is infeasible.
+/// Evaluates, prints a line for each evaluation, and keeps the best. A place whose packings cannot be prepared or
+/// tested is infeasible.
 class Search {
  public:
   Search(Calibration const& calibration, std::filesystem::path const& folder, bool resume)

@@ -48,8 +48,8 @@ void declare_prepare(CLI::App& app, Test& choice);
 void shear(Test& choice, CLI::App const& app);
 void declare_shear(CLI::App& app, Test& choice);
 
-/// Finds the free parameters of a sand by targets and tables. In the folder: evaluations.csv, calibrated.sand, curve.csv,
-/// calibration.csv, sensitivities.csv, summary.json.
+/// Finds the free parameters of a sand by targets and tables. In the folder: evaluations.csv, calibrated.sand,
+/// curve.csv, calibration.csv, sensitivities.csv, summary.json.
 /// \throws InputError for targets out of reach, naming what limits them
 void calibrate(CalibrateChoice choice, CLI::App const& app);
 void declare_calibrate(CLI::App& app, CalibrateChoice& choice);

@@ -22,8 +22,8 @@ Curve tested(PackingType packing, typename PackingType::Law const& law, CurveTes
       std::ceil((test.strain - middle_of_row) / test.row_strain + 1.0 - 1e-9));
   scarp::Tensor<PackingType::dim> sum = scarp::Tensor<PackingType::dim>::Zero();
   auto middle = lab.deformation();
-  // A path that prescribes another strain goes on to the axial one. Curves of several seeds are cut to the shortest, where those that
-  // dilate more lag behind: by a tenth with 60 grains, hence the margin.
+  // A path that prescribes another strain goes on to the axial one. Curves of several seeds are cut to the shortest,
+  // where those that dilate more lag behind: by a tenth with 60 grains, hence the margin.
   constexpr double margin = 1.25;
   bool const axial = path.strain == axial_strain<PackingType::dim>;
   auto const ends_early = [&] { return !axial && axial_strain(middle) < margin * test.strain; };

@@ -18,7 +18,8 @@
 
 namespace rve_lab {
 
-/// evaluations.csv: a row for each evaluation, of infeasible ones with the reason instead of values, from which a resumed calibration takes what it has already.
+/// evaluations.csv: a row for each evaluation, of infeasible ones with the reason instead of values, from which a
+/// resumed calibration takes what it has already.
 class EvaluationTable {
  public:
   /// \throws InputError for a table of other parameters or targets

@@ -15,9 +15,10 @@
 
 namespace rve_lab {
 
-/// A table of a test in the laboratory, compression positive, with strains of 1 and stresses of Pa or, where their names say so, of per cent
-/// and kPa: axial_strain and volumetric_strain (or eps1 and epsv) and stress_ratio (q/p), or q and p. Columns of path.csv will do. Strains
-/// are logarithmic; those over initial lengths and volumes have names that begin with engineering_.
+/// A table of a test in the laboratory, compression positive, with strains of 1 and stresses of Pa or, where their
+/// names say so, of per cent and kPa: axial_strain and volumetric_strain (or eps1 and epsv) and stress_ratio (q/p), or
+/// q and p. Columns of path.csv will do. Strains are logarithmic; those over initial lengths and volumes have names
+/// that begin with engineering_.
 struct LabTable {
   std::string file;
   std::vector<double> strain;
@@ -27,7 +28,8 @@ struct LabTable {
   std::vector<double> held{};         ///< stress that the path holds, at each row [Pa]; empty without q and p
   bool has_ratio = false;             ///< whether stresses are those of a stress_ratio: q and p tell what is held only
 
-  /// triaxial: p is the mean of three principal stresses, q/p becomes \f$ \sin\varphi = 3 (q/p) / (6 + q/p) \f$; else of two,
+  /// triaxial: p is the mean of three principal stresses, q/p becomes \f$ \sin\varphi = 3 (q/p) / (6 + q/p) \f$; else
+  /// of two,
   /// \f$ \sin\varphi = (q/p) / 2 \f$. holds_p: whether the path holds p and not the lateral stress
   /// \throws InputError for columns that are missing, and for values that no test has, with what they may be instead
   static LabTable read(std::string const& file, bool triaxial, bool holds_p) {

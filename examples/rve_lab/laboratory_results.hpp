@@ -15,8 +15,9 @@
 
 namespace rve_lab {
 
-/// State of a point on a laboratory path: length of the path, stress [Pa] and logarithmic strain with engineering shear, tension positive. What
-/// follows from them is positive in compression; p and q in the plane are those of the stresses in it.
+/// State of a point on a laboratory path: length of the path, stress [Pa] and logarithmic strain with engineering
+/// shear, tension positive. What follows from them is positive in compression; p and q in the plane are those of the
+/// stresses in it.
 template <int Dim>
 struct LaboratoryRow {
   double length = 0.0;                                               ///< as `PointPath` counts it
@@ -35,8 +36,8 @@ struct LaboratoryRow {
     auto const values = principal_stresses();
     return values(0) - values(Dim - 1);
   }
-  /// Mobilised friction angle [rad], \f$ \sin\varphi = (\sigma_1 - \sigma_3)/(\sigma_1 + \sigma_3) \f$: a right angle where the minor principal
-  /// stress is tension, which no friction angle carries, and 0 without any stress.
+  /// Mobilised friction angle [rad], \f$ \sin\varphi = (\sigma_1 - \sigma_3)/(\sigma_1 + \sigma_3) \f$: a right angle
+  /// where the minor principal stress is tension, which no friction angle carries, and 0 without any stress.
   double friction() const {
     auto const values = principal_stresses();
     if (values(Dim - 1) < 0.0) return std::numbers::pi / 2.0;
@@ -51,9 +52,9 @@ struct LaboratoryRow {
   double void_ratio(double initial) const { return (1.0 + initial) * std::exp(-volumetric_strain()) - 1.0; }
 };
 
-/// Dilation angle [rad] of a change of strain, \f$ \sin\psi = -d\varepsilon_v / \sum_i |d\varepsilon_i| \f$ over the principal strains: what
-/// Mohr-Coulomb flow with this angle has in the plane, in triaxial compression and in extension. NaN
-/// where no shear strain changes, as in oedometers: all principal strains have one sign.
+/// Dilation angle [rad] of a change of strain, \f$ \sin\psi = -d\varepsilon_v / \sum_i |d\varepsilon_i| \f$ over the
+/// principal strains: what Mohr-Coulomb flow with this angle has in the plane, in triaxial compression and in
+/// extension. NaN where no shear strain changes, as in oedometers: all principal strains have one sign.
 template <int Dim>
 double dilation(LaboratoryRow<Dim> const& from, LaboratoryRow<Dim> const& to) {
   scarp::EngineeringStrain<Dim> change = to.strain - from.strain;
@@ -72,8 +73,9 @@ struct LaboratoryResults {
 
   Row peak{};      ///< where the mobilised friction is largest; mean over the window, as all rows here
   Row residual{};  ///< over the last window
-  /// Whether the ratio of the outer principal stresses is largest in the last tenth of the path, still rose there by a twentieth of its
-  /// growth, and fell by less than that at the end: `peak` is then where the test ended, and no strength.
+  /// Whether the ratio of the outer principal stresses is largest in the last tenth of the path, still rose there by a
+  /// twentieth of its growth, and fell by less than that at the end: `peak` is then where the test ended, and no
+  /// strength.
   bool rises = false;
   std::optional<Row>
       phase_transformation{};  ///< from contraction to dilation; at constant volume from falling to rising p
@@ -168,8 +170,9 @@ std::vector<LaboratoryRow<Dim>> mean_rows(std::vector<std::vector<LaboratoryRow<
 }
 
 /// Reads the results of a test from its rows, up to the first turn of a cyclic one.
-/// window: length of the path over which stresses are means and dilation angles differences, against the scatter of packings; 0 for
-/// single rows. A row stands for the increment that it ends, so the one where a window begins does not count in its mean stress.
+/// window: length of the path over which stresses are means and dilation angles differences, against the scatter of
+/// packings; 0 for single rows. A row stands for the increment that it ends, so the one where a window begins does not
+/// count in its mean stress.
 /// \throws InputError for less than two rows, and a path that is shorter than the window
 template <int Dim>
 LaboratoryResults<Dim> laboratory_results(std::vector<LaboratoryRow<Dim>> const& all, double window = 0.0) {

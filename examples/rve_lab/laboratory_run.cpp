@@ -63,7 +63,8 @@ void print_results(std::string const& name, nlohmann::json const& json) {  // na
 
 constexpr std::size_t most_lines = 10;  ///< of points, beyond which the summary alone has them
 
-/// Peak friction of the points, without those whose stress ratio still rose at the end: printed, and kept in the summary.
+/// Peak friction of the points, without those whose stress ratio still rose at the end: printed, and kept in the
+/// summary.
 void read_scatter(nlohmann::json& summary) {
   std::vector<double> angles;
   for (auto const& result : summary["results"]) {

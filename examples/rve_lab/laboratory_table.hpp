@@ -10,7 +10,8 @@
 
 namespace rve_lab {
 
-/// Targets of a path from a table: eaa and saa of each axis a, ev and p are compression positive, shear angles gab and stresses sab not.
+/// Targets of a path from a table: eaa and saa of each axis a, ev and p are compression positive, shear angles gab and
+/// stresses sab not.
 template <int Dim>
 struct TargetTable {
   scarp::CsvColumns table;

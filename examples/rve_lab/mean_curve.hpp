@@ -14,14 +14,15 @@
 
 namespace rve_lab {
 
-/// A test on one packing, or the mean of several: the start, then a row for each stretch of the path with its mean stress and the strain in
-/// its middle. Stresses are those across the axes, as a laboratory measures them.
+/// A test on one packing, or the mean of several: the start, then a row for each stretch of the path with its mean
+/// stress and the strain in its middle. Stresses are those across the axes, as a laboratory measures them.
 struct Curve {
   std::vector<LaboratoryRow<2>> rows;
   double void_ratio = 0.0;            ///< at the start
   double isotropic_void_ratio = 0.0;  ///< of the preparation, at its isotropic pressure
 
-  /// In space with the mean of the lateral stresses and the sum of the lateral strains, from which friction and dilation are as in the plane.
+  /// In space with the mean of the lateral stresses and the sum of the lateral strains, from which friction and
+  /// dilation are as in the plane.
   template <int Dim>
   void add(Eigen::Matrix<double, Dim, Dim> const& stress, Eigen::Matrix<double, Dim, Dim> const& deformation) {
     double const axial = axial_strain(deformation);

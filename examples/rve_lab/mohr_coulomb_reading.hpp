@@ -10,11 +10,12 @@
 
 namespace rve_lab {
 
-/// Mohr-Coulomb parameters read from a drained test without cohesion: peak friction and dilation, Young's modulus and Poisson's
-/// ratio of the secant to half of the peak, the ratio within 0 and 0.49 and the dilation from 0 to the friction. Their own drained test
-/// has the peak and E50 of the curve; it is straight where the curve bends, and stays at the peak where the curve softens.
-/// \throws InputError for a test without friction, with tension or without a secant, and for one whose stress ratio rises to its end, as
-/// that of elastic material
+/// Mohr-Coulomb parameters read from a drained test without cohesion: peak friction and dilation, Young's modulus and
+/// Poisson's ratio of the secant to half of the peak, the ratio within 0 and 0.49 and the dilation from 0 to the
+/// friction. Their own drained test has the peak and E50 of the curve; it is straight where the curve bends, and stays
+/// at the peak where the curve softens.
+/// \throws InputError for a test without friction, with tension or without a secant, and for one whose stress ratio
+/// rises to its end, as that of elastic material
 template <int Dim>
 scarp::MohrCoulomb<Dim> mohr_coulomb_of(LaboratoryResults<Dim> const& results) {
   double const friction = results.peak.friction();

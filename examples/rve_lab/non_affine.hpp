@@ -10,8 +10,8 @@
 
 namespace rve_lab {
 
-/// Displacement of each grain beyond the affine one, \f$ x_{end} - F x_{start} \f$ [m], up to lattice vectors: taken to be less
-/// than half a cell. Its mean, a rigid shift that means nothing in a periodic cell, is taken off.
+/// Displacement of each grain beyond the affine one, \f$ x_{end} - F x_{start} \f$ [m], up to lattice vectors: taken to
+/// be less than half a cell. Its mean, a rigid shift that means nothing in a periodic cell, is taken off.
 /// `deformation` F is the cell's deformation gradient between the two states of one population.
 /// \throws InputError for packings of different size
 template <class PackingType>

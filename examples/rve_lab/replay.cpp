@@ -64,7 +64,8 @@ void relax(PackingType& packing, scarp::LinearFrictional const& law, double pres
                   before);
 }
 
-/// \throws InputError for files that are wrong, std::runtime_error when the packing cannot continue; the rows so far are then on disk
+/// \throws InputError for files that are wrong, std::runtime_error when the packing cannot continue; the rows so far
+/// are then on disk
 template <class PackingType>
 void run_replay(Replay const& choice, scarp::CsvColumns const& particles,
                 std::optional<scarp::CsvColumns> const& contacts, Tensor const& cell,

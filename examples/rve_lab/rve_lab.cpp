@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// A laboratory: prepares packings, shears them along any path, calibrates them, replays those of other codes, and tests any material.
+// A laboratory: prepares packings, shears them along any path, calibrates them, replays those of other codes, and tests
+// any material.
 #include <exception>
 #include <iostream>
 

@@ -45,8 +45,8 @@ void remove_older_ends(scarp::RunFolder const& own, std::filesystem::path const&
   remove_older(own, names, {input, examples::sand_path(input)});
 }
 
-/// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest q/p and at
-/// the end, end.packing (with end.sand) to continue from, summary.json last.
+/// Sends a packing along the path. In the run's folder: path.csv row by row, the states at the start, at the largest
+/// q/p and at the end, end.packing (with end.sand) to continue from, summary.json last.
 /// input: file of the packing, where it comes from one
 /// \throws std::runtime_error when the packing cannot continue; the rows so far are then on disk
 template <class PackingType>

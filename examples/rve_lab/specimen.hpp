@@ -83,8 +83,8 @@ class Specimen {
  private:
   static constexpr double deepest = 1.0;  ///< over the reduced radius of a contact: half the radius of equal discs
 
-  /// Brings a packing to the pressure that its path holds, before the path begins: the normal stresses in the proportion that
-  /// they have, no shear strain.
+  /// Brings a packing to the pressure that its path holds, before the path begins: the normal stresses in the
+  /// proportion that they have, no shear strain.
   /// present: the pressure that it has [Pa]
   /// \throws InputError for a pressure that it does not come to
   void consolidate(double present) {

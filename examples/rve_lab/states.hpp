@@ -68,8 +68,8 @@ scarp::CsvTable contact_table(PackingType const& packing, typename PackingType::
   return table;
 }
 
-/// The grains as another code reads them: STEM.txt for ymport.text of Yade, with the cell in its first line; STEM.data for LAMMPS (sphere,
-/// dimension 2), turned so that the first edge of the cell lies along x.
+/// The grains as another code reads them: STEM.txt for ymport.text of Yade, with the cell in its first line; STEM.data
+/// for LAMMPS (sphere, dimension 2), turned so that the first edge of the cell lies along x.
 /// \throws FileError when a file cannot be written
 template <class PackingType>
   requires std::same_as<typename PackingType::Shape, scarp::Disc>

@@ -130,7 +130,8 @@ inline void warn_of_unused(CLI::App const& app, char const* why, std::initialize
   }
 }
 
-/// Why a folder cannot take results, or nothing. The folder itself, and what it lies in, are made when results are written.
+/// Why a folder cannot take results, or nothing. The folder itself, and what it lies in, are made when results are
+/// written.
 inline std::string folder_problem(std::string const& given) {
   if (given.empty()) return "the name of the output folder is empty";
   std::error_code trouble;

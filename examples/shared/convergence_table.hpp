@@ -47,7 +47,8 @@ struct Series {
                     "dofs", "result", "formula", "error %", "order", "limit", "steps", "iter", "seconds");
   }
 
-  /// order: of the error between a mesh and the one before; limit: of the last three results if they approach it at one rate
+  /// order: of the error between a mesh and the one before; limit: of the last three results if they approach it at one
+  /// rate
   void print() const {
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       auto const& one = outcomes[k];

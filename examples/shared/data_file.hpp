@@ -6,7 +6,8 @@
 
 namespace examples {
 
-/// A file of data that belongs to an example: the one of the wheel that the program lies in (`../examples`), else that of the sources.
+/// A file of data that belongs to an example: the one of the wheel that the program lies in (`../examples`), else that
+/// of the sources.
 /// place: below the folder `examples`; sources: the file that the program was built beside
 inline std::filesystem::path data_file(std::string const& place, std::filesystem::path const& sources) {
   std::error_code none;

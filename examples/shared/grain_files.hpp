@@ -25,7 +25,8 @@ inline std::optional<double> number_in(std::string_view word) {
   return scarp::read_number(word, number) == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
-/// Collects id, x, y, z, r of grains from lines of words. The first line has lost a # at its beginning, later comments are not here.
+/// Collects id, x, y, z, r of grains from lines of words. The first line has lost a # at its beginning, later comments
+/// are not here.
 class GrainLines {
  public:
   using Line = scarp::detail::CsvLine;
@@ -115,7 +116,8 @@ inline scarp::Tensor<3> sheared_box(std::array<double, 3> const& edges, std::arr
   return cell;
 }
 
-/// Yade's export.text, export.textExt and SpherePack.save: a line `#format x_y_z_r...`, comments, one line for each grain.
+/// Yade's export.text, export.textExt and SpherePack.save: a line `#format x_y_z_r...`, comments, one line for each
+/// grain.
 inline GrainFile read_yade(GrainLines lines) {
   std::array<std::optional<std::size_t>, 5> at{std::nullopt, 0, 1, 2, 3};
   std::optional<scarp::Tensor<3>> cell;
@@ -151,7 +153,8 @@ inline GrainFile read_yade(GrainLines lines) {
   return {std::move(lines).columns(), cell, std::move(notes)};
 }
 
-/// A data file of LAMMPS with the atom style sphere: id, type, diameter, density, x, y, z. docs.lammps.org/read_data.html
+/// A data file of LAMMPS with the atom style sphere: id, type, diameter, density, x, y, z.
+/// docs.lammps.org/read_data.html
 inline GrainFile read_lammps_data(GrainLines lines) {
   std::array<double, 3> edges{};
   std::array<double, 3> tilts{};
@@ -289,8 +292,8 @@ inline GrainFile read_mercury(GrainLines lines) {
 
 }  // namespace detail
 
-/// Reads the grains of a file, whose form its first lines show: text of Yade, data (style sphere) and dump files of LAMMPS, restart
-/// files of MercuryDPM, tables with commas as for read_packing.
+/// Reads the grains of a file, whose form its first lines show: text of Yade, data (style sphere) and dump files of
+/// LAMMPS, restart files of MercuryDPM, tables with commas as for read_packing.
 /// \throws InputError naming file and line for what cannot be read
 inline GrainFile read_grains(std::filesystem::path const& path) {
   auto const text = scarp::read_file(path);

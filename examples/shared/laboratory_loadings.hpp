@@ -6,7 +6,8 @@
 namespace examples {
 
 /// \file
-/// Tests of the laboratory as loadings of a packing. Their last axis is the axial one; shear stresses are not held, their strains are zero.
+/// Tests of the laboratory as loadings of a packing. Their last axis is the axial one; shear stresses are not held,
+/// their strains are zero.
 
 /// Equal shortening along all axes. rate: strain of each axis per step
 template <int Dim>
@@ -40,8 +41,8 @@ scarp::Loading<Dim> simple_shear(double rate) {
   return loading;
 }
 
-/// Simple shear while the stress along the last axis is held. rate: shear strain per step; axial_pressure [Pa], positive
-/// in compression
+/// Simple shear while the stress along the last axis is held. rate: shear strain per step; axial_pressure [Pa],
+/// positive in compression
 template <int Dim>
 scarp::Loading<Dim> simple_shear_at_stress(double rate, double axial_pressure) {
   scarp::Loading<Dim> loading = simple_shear<Dim>(rate);

@@ -30,10 +30,11 @@ scarp::Vector<Dim> shear_direction(scarp::Contact<Dim> const& contact) {
 
 }  // namespace detail
 
-/// Whether a contact is at its shear limit: its law, strained by a little more along the present shear force, carries less than half of
-/// that. So an unbroken bond does not slide, whatever Coulomb's limit.
-/// nearness: increment of shear force by which the contact is tried, as a share of its force. While grains move, contacts that slide under
-/// a growing normal force stand a little below the limit: it grows once more after their last slip.
+/// Whether a contact is at its shear limit: its law, strained by a little more along the present shear force, carries
+/// less than half of that. So an unbroken bond does not slide, whatever Coulomb's limit.
+/// nearness: increment of shear force by which the contact is tried, as a share of its force. While grains move,
+/// contacts that slide under a growing normal force stand a little below the limit: it grows once more after their last
+/// slip.
 template <int Dim, class Law>
 bool slides(scarp::Contact<Dim> const& contact, Law const& law, double nearness = 1e-2) {
   double const tangential = contact.stiffness.tangential;

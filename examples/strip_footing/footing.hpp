@@ -17,8 +17,8 @@ struct Footing {
 
   static constexpr double half_width = 1.0;  ///< [m]
 
-  /// \f$ N_q = e^{\pi\tan\varphi}\tan^2(45°+\varphi/2),\; N_c = (N_q - 1)\cot\varphi \f$, 2 + pi without friction; the weightless
-  /// problem's exact solution is \f$ q_u = c N_c + q N_q \f$ (Prandtl 1920, Reissner 1924).
+  /// \f$ N_q = e^{\pi\tan\varphi}\tan^2(45°+\varphi/2),\; N_c = (N_q - 1)\cot\varphi \f$, 2 + pi without friction; the
+  /// weightless problem's exact solution is \f$ q_u = c N_c + q N_q \f$ (Prandtl 1920, Reissner 1924).
   double surcharge_factor() const {
     double const passive = std::tan(std::numbers::pi / 4.0 + friction / 2.0);
     return std::exp(std::numbers::pi * std::tan(friction)) * passive * passive;
@@ -103,7 +103,8 @@ examples::Outcome press(Footing const& footing, Grading const& grading) {
   Eigen::VectorXd const loads = grid.traction("top", scarp::Vector<2>(0.0, -footing.surcharge));
   Plateau plateau{below, loads};
   auto problem = examples::plane_problem(std::move(grid), soil, 0.0, constraints, scarp::LoadHistory(loads));
-  // Without associated flow the tangent is unsymmetric and may lose its definiteness: a share of the elastic one keeps it.
+  // Without associated flow the tangent is unsymmetric and may lose its definiteness: a share of the elastic one keeps
+  // it.
   bool const associated = footing.dilation == footing.friction;
   examples::Newton const newton{.tolerance = associated ? 1e-7 : 1e-4,
                                 .max_iterations = associated ? 20 : 60,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How near do finite elements come to Prandtl's and Reissner's bearing capacity factors? Rigid strip footings on Mohr-Coulomb soil.
+// How near do finite elements come to Prandtl's and Reissner's bearing capacity factors? Rigid strip footings on
+// Mohr-Coulomb soil.
 #include <CLI/CLI.hpp>
 
 #include "../shared/command_line.hpp"

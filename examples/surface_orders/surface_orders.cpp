@@ -21,7 +21,8 @@ struct Choice {
   double poisson = 0.0;
 };
 
-/// One element on meshes that are halved each time; true if the last halving has the element's order, but for a quarter.
+/// One element on meshes that are halved each time; true if the last halving has the element's order, but for a
+/// quarter.
 template <class Element>
 bool block(char const* name, Eigen::MatrixXd const& exact, Choice const& choice, Step step, char const* how) {
   constexpr int order = scarp::HasMidSides<Element> ? 3 : 2;

@@ -5,7 +5,8 @@
 
 namespace thick_cylinder {
 
-/// A long thick cylinder under inner pressure in plane strain, of a material of Tresca, that is Mohr-Coulomb without friction.
+/// A long thick cylinder under inner pressure in plane strain, of a material of Tresca, that is Mohr-Coulomb without
+/// friction.
 /// Radii and yield stress as in de Souza Neto, Peric and Owen, Computational Methods for Plasticity, 7.5.1 (there in mm
 /// and GPa), whose limit \f$ 2\sigma_y/\sqrt3 \ln(b/a) \f$ is that of von Mises.
 struct Cylinder {

@@ -8,8 +8,8 @@
 namespace thick_cylinder {
 
 /// A circular opening in Mohr-Coulomb ground under an equal pressure from all sides, which is taken from the wall.
-/// Closed form: Salencon (1969), with the numbers of the verification problem "Cylindrical hole in an infinite Mohr-Coulomb
-/// medium" of FLAC and 3DEC (Itasca).
+/// Closed form: Salencon (1969), with the numbers of the verification problem "Cylindrical hole in an infinite
+/// Mohr-Coulomb medium" of FLAC and 3DEC (Itasca).
 struct Opening {
   double radius = 1.0;         ///< a [m]
   double outer = 50.0;         ///< where the mesh ends and the pressure far away acts [m]
@@ -44,8 +44,8 @@ struct Excavated {
   double stress_error = 0.0;  ///< root of the mean square over the points within 3 a, over the pressure far away
 };
 
-/// Where the plastic shear strain of the points, by their distance from the centre, falls to zero: a straight line through the
-/// outermost two distances that have some.
+/// Where the plastic shear strain of the points, by their distance from the centre, falls to zero: a straight line
+/// through the outermost two distances that have some.
 inline double radius_of_yielding(std::vector<std::pair<double, double>> const& plastic_shear) {
   std::map<long, std::pair<double, double>> rings;  // by distance, rounded
   for (auto const& [radius, shear] : plastic_shear) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Lame's stiffness and the limit pressure of a thick cylinder; the plastic ring round an opening in the ground (Salencon).
+// Lame's stiffness and the limit pressure of a thick cylinder; the plastic ring round an opening in the ground
+// (Salencon).
 #include <CLI/CLI.hpp>
 
 #include "../shared/command_line.hpp"

@@ -51,8 +51,8 @@ struct Watch {
   }
 };
 
-/// A column of 1 m x 1 m x 2 m between smooth platens, the upper one pushed down; its sides carry the confining pressure as a
-/// dead load. Two nodes of the base keep it from drifting and turning.
+/// A column of 1 m x 1 m x 2 m between smooth platens, the upper one pushed down; its sides carry the confining
+/// pressure as a dead load. Two nodes of the base keep it from drifting and turning.
 template <class Element>
 ColumnResult column_test(Packing const& packing, Choice const& choice) {
   using Grid = scarp::Discretisation<Element, scarp::UpdatedLagrangian, scarp::FullIntegration>;

@@ -9,8 +9,9 @@
 
 namespace triaxial_column {
 
-/// One packing on the path of a homogeneous column between smooth platens: the axial plane stays horizontal, the sides carry
-/// the dead load of the confining pressure, over the area that they have now, and no shear; the turn about the axis is held.
+/// One packing on the path of a homogeneous column between smooth platens: the axial plane stays horizontal, the sides
+/// carry the dead load of the confining pressure, over the area that they have now, and no shear; the turn about the
+/// axis is held.
 inline std::vector<Row> rve_test(Packing const& packing, Choice const& choice) {
   constexpr double increment = 1e-4;  // of the axial strain
   Sand const sand{.law = contact_law(), .source = {packing}, .strain_per_step = 1e-6};

@@ -35,7 +35,8 @@ PackingType lattice(scarp::SizeOf<typename PackingType::Shape> const& size,
   return packing;
 }
 
-/// One-dimensional modulus C11 [Pa] of a soil in the plane, by a compression of 1e-4 along x; NaN for a response that is not acceptable.
+/// One-dimensional modulus C11 [Pa] of a soil in the plane, by a compression of 1e-4 along x; NaN for a response that
+/// is not acceptable.
 template <class Soil>
 double modulus(Soil const& soil) {
   constexpr double strain = 1e-4;

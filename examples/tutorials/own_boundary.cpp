@@ -17,7 +17,8 @@ using Grains = scarp::Packing<Shape, Law>;
 
 /// Every second column of a lattice is glued to a plate that follows the mean strain; the grains between are free.
 struct Plates {
-  /// Once a step, before the grains move: holds.hold(grain), or only holds.hold_centre(grain, axis), holds.hold_spin(grain).
+  /// Once a step, before the grains move: holds.hold(grain), or only holds.hold_centre(grain, axis),
+  /// holds.hold_spin(grain).
   template <class PackingType>
   void constrain(PackingType const& packing, scarp::GrainHolds<PackingType> const& holds) const {
     for (std::size_t i = 0; i < packing.grain_count(); i += 2) holds.hold(i);
@@ -44,7 +45,8 @@ int main() {
   for (std::size_t i = 0; i < grains.grain_count(); ++i) sizes.push_back({radius, i % 4 < 2 ? 1.0 : 2.0});
   grains.population = std::make_shared<scarp::Population<Shape> const>(sizes, 2650.0, 1.0);
 
-  // Free grains: four springs in series. Plates: between two of them a and b, or c and b, in series. All held: the mean.
+  // Free grains: four springs in series. Plates: between two of them a and b, or c and b, in series. All held: the
+  // mean.
   double const in_series = 4.0 / (1.0 / a + 2.0 / b + 1.0 / c), mean = (a + 2.0 * b + c) / 4.0;
   double const between_plates = 1.0 / (1.0 / a + 1.0 / b) + 1.0 / (1.0 / c + 1.0 / b);
   bool good = tutorials::agree("modulus, periodic [Pa]", modulus(grains, law, scarp::Periodic{}), in_series, 1e-3);

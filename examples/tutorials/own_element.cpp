@@ -53,7 +53,8 @@ int main() {
   for (double const volume : grid.volumes(displacement)) area += volume;
   good &= tutorials::agree("area [m2]", area, 2.0, 1e-12);
 
-  // The patch test: a uniform gradient is found at every point, and a uniform stress leaves the inner nodes without force.
+  // The patch test: a uniform gradient is found at every point, and a uniform stress leaves the inner nodes without
+  // force.
   scarp::Tensor<2> const gradient{{1e-3, 4e-4}, {4e-4, -5e-4}};
   for (int node = 0; node < grid.node_count(); ++node) {
     displacement.segment<2>(2 * node) = gradient * mesh.nodes[static_cast<std::size_t>(node)];

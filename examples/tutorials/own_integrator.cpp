@@ -14,8 +14,9 @@
 
 using Grains = scarp::Packing<scarp::Disc, scarp::LinearFrictional>;
 
-/// Projected velocities (quick-min; Sheppard et al., 2008): while the net forces do work, only the part of all velocities along
-/// the accelerations stays, else none. \f$ v = \frac{P}{\sum F^2/m} \frac{F}{m}, P = \sum F \cdot v > 0 \f$, rotations alike; then leap-frog.
+/// Projected velocities (quick-min; Sheppard et al., 2008): while the net forces do work, only the part of all
+/// velocities along the accelerations stays, else none. \f$ v = \frac{P}{\sum F^2/m} \frac{F}{m}, P = \sum F \cdot v >
+/// 0 \f$, rotations alike; then leap-frog.
 struct ProjectedVelocities {
   double push = 1.0;  ///< velocity after the step over force times mobility, the same for all grains
 

@@ -16,7 +16,8 @@ struct Stiffening {
   double tangential_stiffness = 0.0;
   double friction = 0.0;
 
-  // constexpr: also for the threads of a card. T is a double, or a pack of as many contacts as a register holds: no `if` on it, but lanes::select and its like.
+  // constexpr: also for the threads of a card. T is a double, or a pack of as many contacts as a register holds: no
+  // `if` on it, but lanes::select and its like.
   template <int Dim, class T>
   constexpr scarp::ContactForce<Dim, T> respond(scarp::ContactKinematics<Dim, T> const& approach,
                                                 scarp::ContactMemory<Dim, T>& memory) const {
@@ -42,8 +43,8 @@ int main() {
   // One contact of length d along each axis in each cell d x d x 1: stress = force / d.
   double const normal = law.coefficient * overlap * std::sqrt(overlap);
   bool good = tutorials::agree("normal stress [Pa]", -start.stress(0), normal / spacing, 1e-9);
-  // Pure shear e: along each axis neighbours slip by e d, which the spring resists up to mu F_n. The branches turn by e, and
-  // the normal forces p with them: less 2 p e.
+  // Pure shear e: along each axis neighbours slip by e d, which the spring resists up to mu F_n. The branches turn by
+  // e, and the normal forces p with them: less 2 p e.
   auto const shear_after = [&](double strain) {
     auto state = start;
     return advance(soil, state, scarp::Gradient<2>{{0.0, strain}, {strain, 0.0}}).stress(2);

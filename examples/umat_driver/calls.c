@@ -12,7 +12,8 @@ static int is_nan(host_point const* point) {
   return all && point->ddsdde[0] != point->ddsdde[0];
 }
 
-/* A response that is not acceptable requests a smaller step and changes nothing; half of the step, twice, gives the stress of C++. */
+/* A response that is not acceptable requests a smaller step and changes nothing; half of the step, twice, gives the
+   stress of C++. */
 void check_cut_back(void) {
   int const room = whole_state(DISCS);
   host_point point;

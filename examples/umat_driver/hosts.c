@@ -83,7 +83,8 @@ void strain_of_step(int step, double* strain) {
   strain[0] = unit, strain[1] = -4.0 * unit, strain[3] = 3.0 * unit;
 }
 
-/* Places of the plane's stresses xx, yy, xy in STRESS of four components, and of six in the orders of Abaqus and Kratos. */
+/* Places of the plane's stresses xx, yy, xy in STRESS of four components, and of six in the orders of Abaqus and
+   Kratos. */
 int const plane[3] = {0, 1, 3}, short_plane[3] = {0, 1, 2}, abaqus[6] = {0, 1, 2, 5, 4, 3},
           kratos[6] = {0, 1, 2, 4, 5, 3};
 

@@ -9,7 +9,8 @@
 /* Flow that is not associated: the order of rows and columns counts. */
 static int is_plastic(double const* tangent) { return fabs(tangent[1] - tangent[3]) > 1e5; }
 
-/* Abaqus: iterations try other increments from the committed state, the first of twice the size, before the last one is kept. */
+/* Abaqus: iterations try other increments from the committed state, the first of twice the size, before the last one
+   is kept. */
 static double abaqus_path(int material, int ntens, int nstatv, int* good) {
   int const dim = ntens == 6 ? 3 : 2;
   int const* const places = ntens == 3 ? short_plane : ntens == 4 ? plane : abaqus;
@@ -36,7 +37,8 @@ static double abaqus_path(int material, int ntens, int nstatv, int* good) {
   return worst;
 }
 
-/* Kratos: a call without increment at the start whose state is not kept; then each response twice, for stress and for tangent. */
+/* Kratos: a call without increment at the start whose state is not kept; then each response twice, for stress and for
+   tangent. */
 static double kratos_path(int material, int ntens, int nstatv, int source, int* good) {
   int const dim = ntens == 6 ? 3 : 2;
   host_point point;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSL-1.0 */
-/* Do C++, C and a UMAT give the same bits? Sequences of calls of Abaqus and of Kratos, two materials, three threads, wrong input. */
+/* Do C++, C and a UMAT give the same bits? Sequences of calls of Abaqus and of Kratos, two materials, three threads,
+   wrong input. */
 #define _POSIX_C_SOURCE 200809L
 #include <ctype.h>
 #include <math.h>

@@ -32,8 +32,8 @@ extern "C" void __sanitizer_set_death_callback(void (*callback)());
 extern "C" inline char const* __asan_default_options() { return "max_allocation_size_mb=256:hard_rss_limit_mb=1500"; }
 #endif
 
-/// Draws inputs for named games until their number or time is spent; every input has a seed of its own, so that one can be
-/// played again.
+/// Draws inputs for named games until their number or time is spent; every input has a seed of its own, so that one can
+/// be played again.
 namespace adversary {
 
 enum class Outcome { accepted, refused };

@@ -20,8 +20,8 @@ T const& one_of(scarp::Random& random, std::vector<T> const& choices) {
   return choices[below(random, choices.size())];
 }
 
-/// Does to a valid file what accidents, other programs and foes do: bits, bytes, pieces, lines, columns, numbers as text and
-/// as bytes. What is drawn depends on the random numbers alone.
+/// Does to a valid file what accidents, other programs and foes do: bits, bytes, pieces, lines, columns, numbers as
+/// text and as bytes. What is drawn depends on the random numbers alone.
 class Damage {
  public:
   /// samples: valid files

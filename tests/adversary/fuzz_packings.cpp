@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Random packings, laws and strain paths against what every packing obeys: momentum, the energy ledger, turned, mirrored and
-// renumbered copies. fuzz_packings --seed S [--inputs N | --seconds T] [--only PAIR] [--first K]; docs/notes/testing.md
+// Random packings, laws and strain paths against what every packing obeys: momentum, the energy ledger, turned,
+// mirrored and renumbered copies. fuzz_packings --seed S [--inputs N | --seconds T] [--only PAIR] [--first K];
+// docs/notes/testing.md
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -130,7 +131,8 @@ Tensor<Dim> random_turn(Random& random) {
   }
 }
 
-/// What a run says after a short and after the whole path; `finer` steps in the place of one, each of a share of its time.
+/// What a run says after a short and after the whole path; `finer` steps in the place of one, each of a share of its
+/// time.
 template <int Dim>
 struct Told {
   scarp::Verdict verdict{};
@@ -223,8 +225,8 @@ Told<P::dim> told_by(Draw<P::dim> const& drawn, typename P::Law const& law, int 
   return told;
 }
 
-/// Round-off of 1e-16 in places of some ten units over overlaps of some tenths, which grows along the path; in space the
-/// critical step brings in an eigenvalue that is good to 1e-8. What is wrong makes a difference of order one.
+/// Round-off of 1e-16 in places of some ten units over overlaps of some tenths, which grows along the path; in space
+/// the critical step brings in an eigenvalue that is good to 1e-8. What is wrong makes a difference of order one.
 template <int Dim>
 inline constexpr double round_off = Dim == 2 ? 1e-9 : 1e-6;
 
@@ -272,7 +274,8 @@ Game pair(std::string name) {
             demand(std::isfinite(told.largest_force) && told.stress.allFinite(), "a number that is not finite");
             demand(told.out_of_balance <= 1e-11 * told.largest_force,
                    fmt::format("forces add up to {} of {}", told.out_of_balance, told.largest_force));
-            // What is missing falls with the step: where grains cross a good part of an overlap in one, an eighth is not enough.
+            // What is missing falls with the step: where grains cross a good part of an overlap in one, an eighth is
+            // not enough.
             auto finer = told_by<P>(drawn, law, 8);
             if (std::abs(finer.ledger.gap()) > 0.02 * finer.energy) finer = told_by<P>(drawn, law, 64);
             demand(std::abs(finer.ledger.gap()) <= 0.02 * finer.energy,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Damaged files against every reader: it returns something sound or throws InputError or FileError with a message, soon and
-// within bounded memory. fuzz_readers --seed S [--inputs N | --seconds T] [--only READER] [--first K]; docs/notes/testing.md
+// Damaged files against every reader: it returns something sound or throws InputError or FileError with a message, soon
+// and within bounded memory. fuzz_readers --seed S [--inputs N | --seconds T] [--only READER] [--first K];
+// docs/notes/testing.md
 #include "adversary/readers.hpp"
 
 int main(int count, char** words) {

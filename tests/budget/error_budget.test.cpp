@@ -16,7 +16,8 @@
 
 namespace {
 
-/// Stress that relaxes towards 1 with the shortening, by explicit Euler steps: \f$ s' = 1 - s \f$. As many steps as planned.
+/// Stress that relaxes towards 1 with the shortening, by explicit Euler steps: \f$ s' = 1 - s \f$. As many steps as
+/// planned.
 struct Relaxing {
   static constexpr int dim = 2;
   struct State {

@@ -54,9 +54,9 @@ TEST_CASE("the grid nodes of a column under gravity settle by the exact parabola
   for (int n = 0; n < column.disc.node_count(); ++n) {
     auto const& place = column.disc.mesh().nodes[static_cast<std::size_t>(n)];
     if (n < 5 * 6) {  // grid nodes come first, centres of the cells later
-      // Analytic: M u'' = gamma, u(0) = 0, M u'(H) = 0 gives u = -gamma (H y - y^2/2) / M. Crossed triangles: the centre's
-      // excess over the mean of the corners decouples, so that the grid nodes obey the one-dimensional elements, which
-      // are exact at nodes. Round-off of the solve.
+      // Analytic: M u'' = gamma, u(0) = 0, M u'(H) = 0 gives u = -gamma (H y - y^2/2) / M. Crossed triangles: the
+      // centre's excess over the mean of the corners decouples, so that the grid nodes obey the one-dimensional
+      // elements, which are exact at nodes. Round-off of the solve.
       double const exact = -unit_weight * (height * place.y() - place.y() * place.y() / 2.0) / modulus;
       CHECK(std::abs(column.displacement(2 * n + 1) - exact) < 1e-12 * unit_weight * height * height / modulus * 10.0);
       ++checked;

@@ -148,8 +148,8 @@ TEST_CASE("a footing loaded outside its core lifts: the pressures are a triangle
     if (point.pressure > 0.0) contact += point.area;
     highest = std::max(highest, point.pressure);
   }
-  // Analytic: contact length 3 (B/2 - e), edge pressure 2 W/length; the points do not reach the edge and the last touching
-  // one is a sixteenth of the width, 2/32, wide.
+  // Analytic: contact length 3 (B/2 - e), edge pressure 2 W/length; the points do not reach the edge and the last
+  // touching one is a sixteenth of the width, 2/32, wide.
   double const length = 3.0 * (1.0 - eccentricity);
   CHECK(sum == samples::Approx(force).epsilon(1e-9));
   CHECK(std::abs(contact - length) < 2.0 / 32.0);
@@ -184,7 +184,8 @@ TEST_CASE("a block slides when the tangential load passes friction, not before")
 }
 
 TEST_CASE("a base that slides over a kink of the ground changes its force continuously") {
-  // Ground of two facets, the right one falls by 0.3 over 1; a rigid base with one pair of points presses into both in turn.
+  // Ground of two facets, the right one falls by 0.3 over 1; a rigid base with one pair of points presses into both in
+  // turn.
   std::vector<scarp::Vector<2>> const nodes{{-1.0, 0.0}, {0.0, 0.0}, {1.0, -0.3}};
   scarp::FacetChain const ground({{1, 0}, {2, 1}});
   scarp::LinearFrictional const law{.normal_stiffness = 1e6, .tangential_stiffness = 1e6, .friction = 0.5};
@@ -314,8 +315,8 @@ TEST_CASE("two elastic blocks on top of each other carry a uniform pressure, whe
     scarp::NoObserver no_observer;
     auto const run = one_step().run(Newton{.tolerance = 1e-9}, problem, 0.0, 1.0, no_observer);
     REQUIRE(run.verdict.acceptable());
-    // Analytic: vertical stress -p everywhere; updated-Lagrangian width is kept by the sides. Round-off of the contact's
-    // stiffness over the soil's, 50, times the residual.
+    // Analytic: vertical stress -p everywhere; updated-Lagrangian width is kept by the sides. Round-off of the
+    // contact's stiffness over the soil's, 50, times the residual.
     for (auto const& stress : problem.committed_stresses())
       CHECK(stress(1) == samples::Approx(-pressure).epsilon(1e-9));
     for (auto const& point : problem.attached<Contact>().points())

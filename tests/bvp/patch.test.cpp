@@ -50,7 +50,8 @@ void check_patch(double size, int iterations) {
     increment -= correction;
     if (correction.norm() < 1e-14 * expected.norm()) break;
   }
-  // Analytic: a uniform gradient is in equilibrium on any mesh (patch test). Round-off of the solve, condition below 100.
+  // Analytic: a uniform gradient is in equilibrium on any mesh (patch test). Round-off of the solve, condition below
+  // 100.
   CHECK((increment - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.cwiseAbs().maxCoeff() * 10.0);
   std::vector<scarp::Gradient<dim>> gradients(static_cast<std::size_t>(disc.point_count()));
   CHECK_FALSE(disc.gradients(increment, gradients).has_value());

@@ -72,7 +72,8 @@ std::pair<double, double> mandel_cryer(int cells, double poisson) {
   scarp::Constraints constraints(grid, water.extra_dofs());
   for (int const node : grid.boundary_nodes("left")) constraints.fix(node, 0);
   for (int const node : grid.boundary_nodes("bottom")) constraints.fix(node, 1);
-  // Forces of a radial pressure: those of a stress of -1 in all directions, which nothing but the outer boundary carries.
+  // Forces of a radial pressure: those of a stress of -1 in all directions, which nothing but the outer boundary
+  // carries.
   std::vector<scarp::VoigtStress<2>> const all_round(static_cast<std::size_t>(grid.point_count()), {-1.0, -1.0, 0.0});
   Eigen::VectorXd pressed;
   grid.internal_force(Eigen::VectorXd::Zero(grid.dof_count()), all_round, pressed);
@@ -213,7 +214,8 @@ TEST_CASE("a saturated packing in one element follows the path of constant volum
       for (int point = 0; point < grid.point_count(); ++point)
         mean += problem.points().committed_stress(point) / grid.point_count();
       scarp::VoigtStress<2> const expected = path.stress(0);
-      // The points of the element bifurcate, and a pressure that is linear in it lets them exchange water; measured 2.8 %, medium.
+      // The points of the element bifurcate, and a pressure that is linear in it lets them exchange water; measured 2.8
+      // %, medium.
       double const bar = (preparation == 0.0 ? 0.02 : 0.03) * std::abs(start(0));
       CHECK(std::abs((mean(0) - mean(1)) - (expected(0) - expected(1))) < bar);        // q
       CHECK(std::abs((mean(0) + mean(1)) - (expected(0) + expected(1))) / 2.0 < bar);  // p'

@@ -68,8 +68,8 @@ Tensor<3> principal_compliance(scarp::IsotropicElasticity const& elasticity) {
   return elasticity.stiffness<3>().topLeftCorner<3, 3>().inverse();
 }
 
-/// The admissible stress that is nearest to the trial stress in the energy norm, by Dykstra's alternating projections onto all
-/// nine half-spaces; knows nothing of faces, edges and corners. Boyle and Dykstra 1986.
+/// The admissible stress that is nearest to the trial stress in the energy norm, by Dykstra's alternating projections
+/// onto all nine half-spaces; knows nothing of faces, edges and corners. Boyle and Dykstra 1986.
 Vector<3> nearest_admissible(RandomCase const& drawn) {
   Tensor<3> const stiffness = drawn.elasticity.stiffness<3>().topLeftCorner<3, 3>();
   std::vector<std::pair<Vector<3>, double>> planes;
@@ -202,8 +202,8 @@ Derivative<StrengthType> tangent_error(StrengthType const& strength, int draws) 
 }  // namespace
 
 TEST_CASE("the consistent tangent is the derivative of the answer") {
-  // Central differences: round-off of stresses of 100 Pa over 1e-7 of strain, 1e-7 Pa, relative to 1e4 Pa: 1e-11; curvature,
-  // from turning principal axes, 1e-14 times strain^-2.
+  // Central differences: round-off of stresses of 100 Pa over 1e-7 of strain, 1e-7 Pa, relative to 1e4 Pa: 1e-11;
+  // curvature, from turning principal axes, 1e-14 times strain^-2.
   Strength const sand{.cohesion = 5.0, .friction = degrees(33.0), .dilation = degrees(7.0)};
   Strength const cut{.cohesion = 5.0, .friction = degrees(33.0), .dilation = degrees(7.0), .tension = 1.0};
   Strength const clay{.cohesion = 5.0};
@@ -311,8 +311,9 @@ TEST_CASE("softening just below the rate at which a point snaps back finds its s
 }
 
 TEST_CASE("an increment to which no strength belongs is refused with a reason") {
-  // Tension of 1 kPa is cut off until 1e-4 of plastic shear, then none. Stretched by 2e-3 the ground yields by 2e-3 below the
-  // cut-off, so not by so little; without a cut-off its stresses of 26.9 and 11.5 kPa are elastic for a cohesion of 10 kPa.
+  // Tension of 1 kPa is cut off until 1e-4 of plastic shear, then none. Stretched by 2e-3 the ground yields by 2e-3
+  // below the cut-off, so not by so little; without a cut-off its stresses of 26.9 and 11.5 kPa are elastic for a
+  // cohesion of 10 kPa.
   scarp::SofteningStrength const strength{
       .peak = {.cohesion = 10e3, .tension = 1e3}, .residual = {.cohesion = 10e3}, .softening_strain = 1e-4};
   scarp::MohrCoulomb<2, scarp::StressFree<2>, scarp::SofteningStrength> const clay{
@@ -340,8 +341,8 @@ TEST_CASE("stresses return near incompressibility as elsewhere") {
       REQUIRE(returned.found);
       ++places[static_cast<std::size_t>(returned.planes)];
       REQUIRE(drawn.excess(returned.stress) <= 1e-10 * drawn.scale());
-      // Analytic: what plastic strain takes away is 2 G of its deviator and K of its trace. Round-off of the strain, 1e-16 of it, times
-      // the bulk modulus, at most 5e5 of the shear modulus.
+      // Analytic: what plastic strain takes away is 2 G of its deviator and K of its trace. Round-off of the strain,
+      // 1e-16 of it, times the bulk modulus, at most 5e5 of the shear modulus.
       Vector<3> const taken = drawn.trial - returned.stress;
       double const volume = returned.plastic_strain.sum();
       double const bulk = drawn.elasticity.lame_lambda + 2.0 * drawn.elasticity.shear_modulus / 3.0;

@@ -12,8 +12,8 @@
 /// Every adaptor around every adaptor, for the laws of what is saved.
 namespace nestings {
 
-/// Elasticity that stiffens along its path, counts as fluid where it is wider than at the start, plans work and is balanced as
-/// packings are.
+/// Elasticity that stiffens along its path, counts as fluid where it is wider than at the start, plans work and is
+/// balanced as packings are.
 struct Loosening {
   static constexpr int dim = 2;
   using Plan = int;

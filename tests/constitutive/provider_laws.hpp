@@ -160,8 +160,8 @@ void a_closed_cycle_of_strain_gives_no_energy() {
   second(0, 1) = second(1, 0) = size;
   Tensor<dim> const both = first + second - origin;
   constexpr int steps = 4;
-  // Third order of the strain: the trapezoid's, and that of a stress rate that no energy stands behind. Rest: what an answer
-  // may be off by on each of the sides.
+  // Third order of the strain: the trapezoid's, and that of a stress rate that no energy stands behind. Rest: what an
+  // answer may be off by on each of the sides.
   double const order = 3.0 * stiffness * size * size * size + 4.0 * Sample<Provider>::rest * stress * size;
   CHECK(work_along<Provider>({origin, first, origin}, steps) >= -order);
   // Round a square such a rate gives or takes the stress times the square's area, less than a tenth of the energy that

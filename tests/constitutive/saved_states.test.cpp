@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is saved comes back: the bits of a state that was read in are those of the one that was saved, and so are its next answers.
+// What is saved comes back: the bits of a state that was read in are those of the one that was saved, and so are its
+// next answers.
 #include <doctest/doctest.h>
 
 #include "constitutive/nestings.hpp"

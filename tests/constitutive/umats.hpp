@@ -20,7 +20,8 @@ namespace umats {
       [[maybe_unused]] int *npt, int *, int *, int *, int *kinc, std::size_t
 
 /// Von Mises' plasticity with linear isotropic hardening by radial return (Simo and Hughes 1998, box 3.1).
-/// PROPS: shear modulus, bulk modulus, yield stress (zero: none), hardening modulus [Pa]; STATEV: equivalent plastic strain, calls.
+/// PROPS: shear modulus, bulk modulus, yield stress (zero: none), hardening modulus [Pa]; STATEV: equivalent plastic
+/// strain, calls.
 inline void von_mises(UMAT_ARGUMENTS) {
   static_cast<void>(stran), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),
       static_cast<void>(dfgrd1), static_cast<void>(kinc);
@@ -71,8 +72,8 @@ inline void forgetful(UMAT_ARGUMENTS) {
   }
 }
 
-/// Elastic with PROPS(1); has a tangent in the first call only, asks for a step of NaN where PROPS(2) is 1, reads PREDEF(2) where it is 2 and
-/// writes DFGRD1(10) where it is 3.
+/// Elastic with PROPS(1); has a tangent in the first call only, asks for a step of NaN where PROPS(2) is 1, reads
+/// PREDEF(2) where it is 2 and writes DFGRD1(10) where it is 3.
 inline void tangent_once(double* stress, double* statev, double* ddsdde, double*, double*, double*, double*, double*,
                          double*, double*, double*, double* dstran, double*, double*, double*, double*, double* predef,
                          double*, char*, int*, int*, int* ntens, int*, double* props, int*, double*, double*,
@@ -101,7 +102,8 @@ inline void of_space(UMAT_ARGUMENTS) {
   statev[0] += stress[4] + stress[5];
 }
 
-/// Elastic like `forgetful`, but adding, with one wish: 1 no DDSDDE, 2 reads STATEV(2), 3 reads PROPS(3), 4 reads DSTRAN(NTENS + 1).
+/// Elastic like `forgetful`, but adding, with one wish: 1 no DDSDDE, 2 reads STATEV(2), 3 reads PROPS(3), 4 reads
+/// DSTRAN(NTENS + 1).
 inline void careless(UMAT_ARGUMENTS) {
   static_cast<void>(stran), static_cast<void>(cmname), static_cast<void>(nstatv), static_cast<void>(pnewdt),
       static_cast<void>(dfgrd1), static_cast<void>(kinc), static_cast<void>(ndi);
@@ -115,9 +117,9 @@ inline void careless(UMAT_ARGUMENTS) {
   if (wish == 4.0) stress[0] += dstran[*ntens];
 }
 
-/// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 requests a smaller step, 5 gives NaN,
-/// 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN, 8 KINC, 9 CELENT, NOEL and
-/// NPT.
+/// Does what its PROPS(1) says: 1 writes behind STATEV, 2 before STRESS, 3 behind DDSDDE, 4 requests a smaller step, 5
+/// gives NaN, 6 returns what it received in STRESS: first letters of CMNAME, DFGRD1(1, 2), DSTRAN(4); 7 returns STRAN,
+/// 8 KINC, 9 CELENT, NOEL and NPT.
 inline void odd(UMAT_ARGUMENTS) {
   static_cast<void>(ndi);
   int const n = *ntens;

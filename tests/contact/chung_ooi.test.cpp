@@ -13,8 +13,8 @@
 #include "scarp/tensor/tensor.hpp"
 #include "support/approx.hpp"
 
-// The eight impacts of Chung and Ooi 2011, Granular Matter 13, 643-656. Geometry, speeds and materials of tests 1 to 4 are
-// theirs; those of tests 5 to 8 are ours, since the closed forms hold for any.
+// The eight impacts of Chung and Ooi 2011, Granular Matter 13, 643-656. Geometry, speeds and materials of tests 1 to 4
+// are theirs; those of tests 5 to 8 are ours, since the closed forms hold for any.
 
 namespace {
 
@@ -58,8 +58,8 @@ struct Rebound {
   double dissipated = 0.0;
 };
 
-/// Leap-frog from first touch until the overlap is gone; a solid sphere: inertia 2/5 m r^2. `surface_speed` is the spin at
-/// first touch times radius.
+/// Leap-frog from first touch until the overlap is gone; a solid sphere: inertia 2/5 m r^2. `surface_speed` is the spin
+/// at first touch times radius.
 template <class Law>
 Rebound bounce(Law const& contact_law, Impact const& impact, double tangential_speed, int steps_per_contact,
                double surface_speed = 0.0) {
@@ -361,7 +361,8 @@ TEST_CASE("two equal spheres with equal spins part as in Chung and Ooi's test 7"
       Course const course = collide(collision, contact_law);
       REQUIRE(course.touching > 500);
       // Exact, in every step: forces are opposite and act at one point, and leap-frog moves each centre along its own
-      // velocity, so that sum (x cross m v + I w) of a position and the velocity that led to it never changes. Round-off.
+      // velocity, so that sum (x cross m v + I w) of a position and the velocity that led to it never changes.
+      // Round-off.
       CHECK(course.lost_momentum < 1e-12);
       CHECK(course.lost_angular_momentum < 1e-12);
       auto const& packing = course.packing;
@@ -470,9 +471,10 @@ TEST_CASE("an elastic oblique impact gains no energy, and what it loses is what 
       CHECK(gained < 0.0);
       CHECK(std::abs(gained + lost) < 1e-8);
       // Where nothing slides all loss comes from the shrinking contact, which releases its share of the shear force
-      // (Thornton, Cummins and Cleary 2013). Analytic: 2/7 sin^2(angle) of the energy is that of the slip, since the slip
-      // has the mass m / 3.5, and of this always the same share is lost. Another code gives the share: Runge-Kutta with
-      // 10^5 steps for u'' = -u^1.5, F' = -1.5 s sqrt(u) w + min(u', 0) F / 2u, w' = 3.5 F, s = 2 (1 - nu) / (2 - nu).
+      // (Thornton, Cummins and Cleary 2013). Analytic: 2/7 sin^2(angle) of the energy is that of the slip, since the
+      // slip has the mass m / 3.5, and of this always the same share is lost. Another code gives the share: Runge-Kutta
+      // with 10^5 steps for u'' = -u^1.5, F' = -1.5 s sqrt(u) w + min(u', 0) F / 2u, w' = 3.5 F, s = 2 (1 - nu) / (2 -
+      // nu).
       // The scheme above is of first order, 0.6 % at 400 steps.
       if (friction > 1.0) {
         CHECK(relative_error(lost, 0.65408 * 2.0 / 7.0 * std::pow(std::sin(angle), 2)) < 0.01);

@@ -91,7 +91,8 @@ TEST_CASE("a ball that is thrown slides at mu g and rolls on with five sevenths 
     ball.step(law, overlap, time_step);
     if (step % 1000 != 999) continue;
     double const time = (step + 1) * time_step;
-    // Analytic: u = u_0 - mu g t, r w = 2.5 mu g t from the first step on, whose slip is 34 times what the spring takes.
+    // Analytic: u = u_0 - mu g t, r w = 2.5 mu g t from the first step on, whose slip is 34 times what the spring
+    // takes.
     // Round-off of 10^5 steps.
     CHECK(std::abs(ball.speed - (start - friction * gravity * time)) < 1e-10 * start);
     CHECK(std::abs(ball.radius * ball.spin - 2.5 * friction * gravity * time) < 1e-10 * start);
@@ -103,8 +104,8 @@ TEST_CASE("a ball that is thrown slides at mu g and rolls on with five sevenths 
     slowest = std::min(slowest, ball.speed);
     fastest = std::max(fastest, ball.speed);
   }
-  // Analytic: u = 5 u_0 / 7, about which the spring swings with what it held, mu N: slip speed mu N sqrt(3.5 / (k_t m)),
-  // of which the centre has 2/7. Without friction's slider nothing is lost.
+  // Analytic: u = 5 u_0 / 7, about which the spring swings with what it held, mu N: slip speed mu N sqrt(3.5 / (k_t
+  // m)), of which the centre has 2/7. Without friction's slider nothing is lost.
   double const swing =
       2.0 / 7.0 * friction * ball.mass * gravity * std::sqrt(3.5 / (law.tangential_stiffness * ball.mass));
   CHECK(std::abs((slowest + fastest) / 2.0 - 5.0 / 7.0 * start) < 0.01 * swing);

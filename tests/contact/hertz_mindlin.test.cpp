@@ -118,7 +118,8 @@ TEST_CASE("dashpots act beside the springs and within friction") {
 }
 
 TEST_CASE("the damping ratio gives its restitution back, below, at and above the critical one") {
-  // Analytic, see damping_ratio_for(); halving the interval from 4 meets the critical ratio, 1, on the way to that of 1/16.
+  // Analytic, see damping_ratio_for(); halving the interval from 4 meets the critical ratio, 1, on the way to that of
+  // 1/16.
   for (double const restitution : {0.9, 0.25, std::exp(-2.0), 0.0625, 0.01}) {
     double const eta = std::sqrt(1.2) * scarp::damping_ratio_for(restitution);
     double const square = 1.0 - eta * eta;

@@ -17,8 +17,8 @@ std::uint64_t thousandth(std::uint64_t seed) {
 
 }  // namespace
 
-// Expected values in this file: another code, tests/core/random_reference.py (`python3 tests/core/random_reference.py`),
-// which checks itself against published sequences.
+// Expected values in this file: another code, tests/core/random_reference.py (`python3
+// tests/core/random_reference.py`), which checks itself against published sequences.
 
 TEST_CASE("the generator draws the numbers of xoshiro256++ seeded by splitmix64") {
   scarp::Random from_zero(0);

@@ -10,7 +10,8 @@
 #include <thread>
 #include <vector>
 
-/// As much of CUDA as `CudaTeam` uses, with a thread of the processor for each thread of one block: its own source runs without a card.
+/// As much of CUDA as `CudaTeam` uses, with a thread of the processor for each thread of one block: its own source runs
+/// without a card.
 namespace emulated {
 
 struct Block {

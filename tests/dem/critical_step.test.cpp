@@ -116,7 +116,8 @@ TEST_CASE("arms that are not along the normal couple the springs of a contact") 
   contact.touch.arm_first = {0.5, 1.0};
   contact.touch.arm_second = {0.0, 0.0};
   double const found = scarp::detail::stiffest_mode<2>(contact, {.normal = 4.0, .tangential = 1.0}, 7.0, 2.0, 0.0);
-  // Analytic: arms across the axes are -1 (normal) and 0.5 (tangent), so that the matrix is [4 (7 + 2), -2; -2, 7 + 0.5].
+  // Analytic: arms across the axes are -1 (normal) and 0.5 (tangent), so that the matrix is [4 (7 + 2), -2; -2, 7 +
+  // 0.5].
   CHECK(found == samples::Approx(21.75 + std::hypot(14.25, 2.0)).epsilon(1e-14));
 }
 

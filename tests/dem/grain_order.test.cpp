@@ -161,8 +161,8 @@ TEST_CASE_TEMPLATE("a short path does not depend on numbers either", PackingType
   double const difference = velocity_difference(packing, other, new_of);
   double const stress_difference = (seen.stress - seen_other.stress).norm() / seen.stress.norm();
   MESSAGE("after 300 steps velocities differ by " << difference << ", stresses by " << stress_difference);
-  // Round-off of 1e-17 m in places of 0.1 m is 1e-12 of overlaps of 1e-5 m, and sliding lets it grow; unbalanced forces, which
-  // the velocities follow, are a thousandth of those at the contacts.
+  // Round-off of 1e-17 m in places of 0.1 m is 1e-12 of overlaps of 1e-5 m, and sliding lets it grow; unbalanced
+  // forces, which the velocities follow, are a thousandth of those at the contacts.
   CHECK(stress_difference < 1e-10);
   CHECK(difference < 1e-7);
 }

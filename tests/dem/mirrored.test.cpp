@@ -84,7 +84,8 @@ TEST_CASE_TEMPLATE("the mirror image of a packing answers the mirrored strain wi
   };
   go_on(40);
   CHECK(apart() < 1e-12);
-  // A grain without contacts stands still, and Cundall's damping takes its +0 for forwards in both: 1e-5 once it is met.
+  // A grain without contacts stands still, and Cundall's damping takes its +0 for forwards in both: 1e-5 once it is
+  // met.
   go_on(160);
   CHECK(apart() < 1e-3);
 }

@@ -163,7 +163,8 @@ TEST_CASE_TEMPLATE("the list holds every near pair of all images once", PackingT
       for (std::size_t k = 0; k < listed.size(); ++k) {
         CHECK(std::get<0>(listed[k]) == std::get<0>(expected[k]));
         CHECK(std::get<1>(listed[k]) == std::get<1>(expected[k]));
-        // Grains on top of each other have several directions of least overlap; which one is found depends on the start.
+        // Grains on top of each other have several directions of least overlap; which one is found depends on the
+        // start.
         if (std::get<2>(expected[k]) < -0.1) continue;
         ++compared;
         // Round-off of positions up to 100 sizes, where flat minima amplify it.
@@ -244,7 +245,8 @@ TEST_CASE_TEMPLATE("a cell thinner than two grains is refused as collapsed", Pac
 }
 
 TEST_CASE("only the reduced cell counts as thin") {
-  // Row on row of the same lattice, but with base vectors sheared so far that their parallelogram is thinner than a grain.
+  // Row on row of the same lattice, but with base vectors sheared so far that their parallelogram is thinner than a
+  // grain.
   auto packing = samples::triangular_lattice<Discs>(4, 5e-3, 1e-2);
   packing.cell.col(1) += 3.0 * packing.cell.col(0);
   CHECK(scarp::cell_is_wide_enough(packing, 1e-4));

@@ -32,7 +32,8 @@ scarp::LinearFrictional stiffer(double factor) {
   return law;
 }
 
-/// A packing after a shear strain of 4e-3, and the energy that no term of the balance accounts for, over all that was turned over.
+/// A packing after a shear strain of 4e-3, and the energy that no term of the balance accounts for, over all that was
+/// turned over.
 struct Sheared {
   Discs packing;
   double gap = 0.0;

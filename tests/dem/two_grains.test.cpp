@@ -146,8 +146,8 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
   for (; step < slides; ++step) {
     advance(stepper, packing);
     double const speed = packing.velocity(1, 1) - packing.velocity(0, 1);
-    // The row tilts by the path over the spacing, 1e-4 at the end; its square opens the contacts by 5e-5 of their overlap, which
-    // costs a tenth of that in speed.
+    // The row tilts by the path over the spacing, 1e-4 at the end; its square opens the contacts by 5e-5 of their
+    // overlap, which costs a tenth of that in speed.
     CHECK(std::abs(speed - (relative - deceleration * time_step * (step + 1))) < 1e-5 * relative);
   }
   // Stuck: springs 2 k_t on relative motion with m/2 each, from the rest at the limit force.
@@ -174,7 +174,8 @@ TEST_CASE_TEMPLATE("a sliding row is slowed by friction alone, sticks, and then 
   // Six half periods between the first and the last change of sign; two crossings are known to one step each.
   double const periods = (last_crossing - first_crossing) * time_step * frequency / (2.0 * std::numbers::pi);
   CHECK(std::abs(periods - 3.0) < 2.0 * time_step * frequency / (2.0 * std::numbers::pi) + 3e-3);
-  // Analytic amplitude mu F_n: nothing is lost once the contact sticks. The last sliding step overshoots by (omega dt)^2.
+  // Analytic amplitude mu F_n: nothing is lost once the contact sticks. The last sliding step overshoots by (omega
+  // dt)^2.
   CHECK(largest == samples::Approx(limit).epsilon(1e-2));
   CHECK(smallest == samples::Approx(-limit).epsilon(1e-2));
 }

@@ -63,7 +63,8 @@ struct Uneven {
   }
 };
 
-/// Drained compression at a lateral pressure of 1 with deviators and volumetric strains of functions of the axial strain.
+/// Drained compression at a lateral pressure of 1 with deviators and volumetric strains of functions of the axial
+/// strain.
 template <class Deviator, class Volume>
 Rows drawn(Deviator const& deviator, Volume const& volume, double end, int count) {
   Rows rows;
@@ -85,7 +86,8 @@ TEST_CASE_TEMPLATE("Mohr-Coulomb parameters are read from Mohr-Coulomb's own cur
       {.surcharge = 1e5}};
   auto const rows = rows_of<dim>(soil, scarp::drained_path<dim>(), 0.04, 400);
   auto const results = rve_lab::laboratory_results<dim>(rows);
-  // The elastic strain of an increment is its logarithm to 1e-9; the curve is straight to its corner, but for the row across it.
+  // The elastic strain of an increment is its logarithm to 1e-9; the curve is straight to its corner, but for the row
+  // across it.
   CHECK(results.peak.friction() == Approx(35.0 * degree).epsilon(1e-9));
   CHECK(results.residual.friction() == Approx(35.0 * degree).epsilon(1e-9));
   CHECK(results.peak_dilation == Approx(8.0 * degree).epsilon(1e-6));
@@ -159,7 +161,8 @@ TEST_CASE("a stress ratio that rises to the end is no peak") {
     CAPTURE(end);
     CHECK(ends([](double axial) { return 200.0 * axial; }, end));
   }
-  // A hyperbola has risen to 10/11 of its asymptote at ten times its half strain, to 9/10 at nine times: by 1 %; to 2/3 at twice: by 3.6 %.
+  // A hyperbola has risen to 10/11 of its asymptote at ten times its half strain, to 9/10 at nine times: by 1 %; to 2/3
+  // at twice: by 3.6 %.
   auto const hyperbola = [](double axial) { return 3.0 * axial / (0.01 + axial); };
   CHECK_FALSE(ends(hyperbola, 0.1));
   CHECK(ends(hyperbola, 0.01));  // half: by 5.5 %
@@ -199,7 +202,8 @@ TEST_CASE("a minor stress in tension mobilises a right angle, and no stress mobi
   CHECK(friction(-3.0, 1.0) == Approx(90.0 * degree));
   CHECK(friction(-1.0, -1.0) == Approx(90.0 * degree));
   CHECK(friction(0.0, 0.0) == 0.0);
-  // A material with cohesion, drawn at no lateral pressure: results are numbers, and no Mohr-Coulomb parameters come of them.
+  // A material with cohesion, drawn at no lateral pressure: results are numbers, and no Mohr-Coulomb parameters come of
+  // them.
   Rows rows;
   for (int k = 0; k <= 20; ++k) {
     double const axial = 1e-3 * k;

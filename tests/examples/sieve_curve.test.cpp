@@ -32,7 +32,8 @@ TEST_CASE("sieving the grains that a curve gives returns the curve") {
   }
 }
 
-// Of a curve over a decade chance draws too few large grains: classes of equal number have the curve's mass all the same.
+// Of a curve over a decade chance draws too few large grains: classes of equal number have the curve's mass all the
+// same.
 TEST_CASE("few grains of a wide curve have its mass, and fewer are rejected with what would do") {
   SieveCurve const curve{{5e-4, 2e-3, 5e-3}, {0.0, 0.4, 1.0}};
   for (auto const& [dim, grains] : {std::pair{2, 250}, std::pair{3, 1000}}) {
@@ -59,7 +60,8 @@ TEST_CASE("few grains of a wide curve have its mass, and fewer are rejected with
   auto const said = samples::message_of([&] { draw(wide, 2, 300); });
   CAPTURE(said);
   CHECK(samples::contains(said, "300 grains cannot have the sieve curve from 0.0001 to 0.01 m"));
-  // Half of the mass in each decade is uniform over ln d, hence numbers are as differences of 1 / d^2; a tenth of the mass lies above d90.
+  // Half of the mass in each decade is uniform over ln d, hence numbers are as differences of 1 / d^2; a tenth of the
+  // mass lies above d90.
   int needed = 0;
   double begin = 0.0;
   REQUIRE(std::sscanf(said.substr(said.find("take ")).c_str(), "take %d grains, or begin the curve at %lf", &needed,

@@ -224,8 +224,9 @@ TEST_CASE("an edge that misses the tip or another edge by round-off is put on it
 }
 
 TEST_CASE("without jitter and edges the crossed layer is the one of former releases") {
-  // Regression: at commit e668971, FaultMesh{.tip = 10.0 / 3.0, .size = 2.5, .row_aspect = 1.73, .row_coarsening = 2.0};
-  // meshes of 45 such layers were compared bit for bit when the patterns came. The tolerance is for other mathematical
+  // Regression: at commit e668971, FaultMesh{.tip = 10.0 / 3.0, .size = 2.5, .row_aspect = 1.73, .row_coarsening =
+  // 2.0}; meshes of 45 such layers were compared bit for bit when the patterns came. The tolerance is for other
+  // mathematical
   // libraries: logarithms and exponentials differ in the last bit.
   FaultMesh const scene{.tip = 10.0 / 3.0, .size = 2.5, .row_aspect = 1.73, .row_coarsening = 2.0};
   auto const mesh = scene.generate();
@@ -324,7 +325,8 @@ TEST_CASE("jitter moves the nodes inside the layer only, by less than its share"
     moved += outline ? 0 : 1;
   }
   CHECK(moved > 500);
-  // Rows are 1.25 m high, which is the least distance almost everywhere; among hundreds of moves some are near the limit.
+  // Rows are 1.25 m high, which is the least distance almost everywhere; among hundreds of moves some are near the
+  // limit.
   CHECK(most < 0.3 * 1.3);
   CHECK(most > 0.27 * 1.2);
   for (double const wrong : {-0.1, 0.31, std::numeric_limits<double>::quiet_NaN()}) {

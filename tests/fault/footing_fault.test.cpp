@@ -88,12 +88,13 @@ TEST_CASE("a tied footing stands through a rupture with its weight carried to 1e
 }
 
 TEST_CASE("a footing of 1e3 to 1e6 times the soil's stiffness and a rigid one converge to one another") {
-  // Soil that does not yield; the rigid footing is tied by an interface of 1e11 Pa/m where the soil below has E/B = 2.5e6.
+  // Soil that does not yield; the rigid footing is tied by an interface of 1e11 Pa/m where the soil below has E/B =
+  // 2.5e6.
   constexpr double strong = 1e9;
   scarp::FrictionalFooting<Tied> rigid;
   rigid.interface = {{.normal_stiffness = 1e11, .tangential_stiffness = 1e11, .friction = 0.0}, infinity, infinity};
-  // Round-off of places, 1e-14 m: times the interface on 10 m over a first load of 45 kN 2e-7; times a block of 2.5e13 Pa and a
-  // cell's 0.5 m over the reactions 3e-8.
+  // Round-off of places, 1e-14 m: times the interface on 10 m over a first load of 45 kN 2e-7; times a block of 2.5e13
+  // Pa and a cell's 0.5 m over the reactions 3e-8.
   auto const tilt_of = [](auto made) {
     made.solver.tolerance = 1e-6;
     return run(made).ruptured.tilt;

@@ -67,8 +67,8 @@ Eigen::VectorXd const& exact() {
   return made;
 }
 
-/// A hexahedron between two planes that do not move along the strike, and the quadrilateral whose shapes it then has, with the
-/// same points.
+/// A hexahedron between two planes that do not move along the strike, and the quadrilateral whose shapes it then has,
+/// with the same points.
 struct FullyIntegrated {
   using Plane = scarp::Discretisation<scarp::Quad4, scarp::UpdatedLagrangian, scarp::FullIntegration>;
   using Space = scarp::Discretisation<scarp::Hex8, scarp::UpdatedLagrangian, scarp::FullIntegration>;

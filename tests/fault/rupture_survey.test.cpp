@@ -72,8 +72,8 @@ TEST_CASE("the offset of a fault spreads on its way through elastic ground") {
     CHECK(found.bands[k].band_width < above);
     CHECK(found.bands[k].band_across < found.bands[k].band_width);
   }
-  // Along bedrock the share rises by 0.1 a metre about the tip, over two cells of 5 m. The next nodes lie half a cell above: at a
-  // tenth of that their share, anything from 0 to 1, moves the half by at most 0.1 x 0.5 / (0.9 x 0.1) m.
+  // Along bedrock the share rises by 0.1 a metre about the tip, over two cells of 5 m. The next nodes lie half a cell
+  // above: at a tenth of that their share, anything from 0 to 1, moves the half by at most 0.1 x 0.5 / (0.9 x 0.1) m.
   auto const low = scarp::band_at_level(elastic().mesh, elastic().rest, elastic().now, elastic().fault, 0.25, 0.125);
   CHECK(std::abs(low.band_x50) < 0.56);
 }

@@ -60,9 +60,9 @@ struct Peak {
   long step = 0;
 };
 
-/// Compression along the last axis at constant lateral stress until the ratio of stresses has stopped growing. Rigid grains
-/// would get there without strain, these need up to 5 over their stiffness number. The inertial number is 1e-5 for the
-/// stiffer spheres and less for discs.
+/// Compression along the last axis at constant lateral stress until the ratio of stresses has stopped growing. Rigid
+/// grains would get there without strain, these need up to 5 over their stiffness number. The inertial number is 1e-5
+/// for the stiffer spheres and less for discs.
 template <class PackingType>
 Peak strength(PackingType packing, LinearFrictional const& law, double pressure, double stiffness_number) {
   constexpr int dim = PackingType::dim;
@@ -95,8 +95,8 @@ Peak strength_of_spheres(double friction, double stiffness_number) {
 
 TEST_CASE("a triangular array of discs pressed normal to its rows has Rowe's strength") {
   for (double const friction : {0.0, 0.1, 0.3}) {
-    // Analytic: sigma_1 / sigma_3 = sqrt3 tan(60 deg + phi), tan phi = mu, for rigid discs once the contacts along the rows
-    // are open; equilibrium of one disc on four contacts that slide (Rowe 1962): 3, 3.838, 7.327.
+    // Analytic: sigma_1 / sigma_3 = sqrt3 tan(60 deg + phi), tan phi = mu, for rigid discs once the contacts along the
+    // rows are open; equilibrium of one disc on four contacts that slide (Rowe 1962): 3, 3.838, 7.327.
     double const expected = std::sqrt(3.0) * std::tan(std::numbers::pi / 3.0 + std::atan(friction));
     Peak const soft = strength_of_discs(friction, 1e3);
     Peak const stiff = strength_of_discs(friction, 1e4);
@@ -113,8 +113,9 @@ TEST_CASE("a triangular array of discs pressed normal to its rows has Rowe's str
 
 TEST_CASE("a face-centred array of spheres pressed along the edge of its cube has Rowe's strength") {
   for (double const friction : {0.0, 0.1, 0.3, 0.5}) {
-    // Analytic: sigma_1 / sigma_3 = 2 (1 + mu) / (1 - mu) for rigid spheres once the contacts in the planes across the axis
-    // are open; eight sliding contacts at 45 deg, of which four carry each lateral stress (Rowe 1962): 2, 2.444, 3.714, 6.
+    // Analytic: sigma_1 / sigma_3 = 2 (1 + mu) / (1 - mu) for rigid spheres once the contacts in the planes across the
+    // axis are open; eight sliding contacts at 45 deg, of which four carry each lateral stress (Rowe 1962): 2, 2.444,
+    // 3.714, 6.
     double const expected = 2.0 * (1.0 + friction) / (1.0 - friction);
     Peak const soft = strength_of_spheres(friction, 1e3);
     Peak const stiff = strength_of_spheres(friction, 1e4);

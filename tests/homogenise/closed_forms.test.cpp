@@ -88,8 +88,8 @@ struct Units {
   }
 };
 
-/// The grains of a packing at rest, without shear forces, in other units; and `copies` of the cell along each of its first
-/// two base vectors, grain i of copy k as number i + k N.
+/// The grains of a packing at rest, without shear forces, in other units; and `copies` of the cell along each of its
+/// first two base vectors, grain i of copy k as number i + k N.
 template <class PackingType>
 PackingType redrawn(PackingType const& packing, Units const& units, int copies = 1) {
   auto const& population = *packing.population;
@@ -168,8 +168,8 @@ TEST_CASE("equal spheres under uniform strain have Voigt's moduli, and relaxed o
   double const filled = packing.population->content() / packing.volume();
   double const kn = sphere_law.normal_stiffness, kt = sphere_law.tangential_stiffness;
   // Analytic: K = Z phi k_n / 6 pi R, G = Z phi (2 k_n + 3 k_t) / 20 pi R. Every contact has the same isotropic part
-  // whatever its direction, so for the isotropic part of the tangent these are exact but for the overlap u in the branch
-  // 2 R - u: (1 - u / 2R)^2 at the deepest.
+  // whatever its direction, so for the isotropic part of the tangent these are exact but for the overlap u in the
+  // branch 2 R - u: (1 - u / 2R)^2 at the deepest.
   double const bulk = contacts * filled * kn / (6.0 * std::numbers::pi * radius);
   double const shear = contacts * filled * (2.0 * kn + 3.0 * kt) / (20.0 * std::numbers::pi * radius);
   double const deepest = scarp::balance(packing, sphere_law).deepest_overlap / 4.0;  // over half the radius: over 2 R
@@ -230,8 +230,8 @@ TEST_CASE("the work of the contacts is that of the stress, Hill and Mandel's con
   auto const state = scarp::balance(start, law);
   double const work_of_stress = -start.volume() * state.stress.cwiseProduct(gradient).sum();
   double const scale = start.volume() * state.stress.norm() * gradient.norm();
-  // Analytic: exact for the motion of uniform strain; the actual one adds net forces and torques times its fluctuations,
-  // which are of the size of strain x diameter.
+  // Analytic: exact for the motion of uniform strain; the actual one adds net forces and torques times its
+  // fluctuations, which are of the size of strain x diameter.
   CHECK(std::abs(affine_work - work_of_stress) < 1e-13 * scale);
   CHECK(std::abs(work - work_of_stress) < state.unbalanced_ratio * scale);
   CHECK(state.unbalanced_ratio < 2e-4);
@@ -247,8 +247,8 @@ TEST_CASE_TEMPLATE("lengths, stiffnesses and densities in other units give the s
   for (Units const units : {Units{0x1p-20, 0x1p20, 0x1p20}, Units{0x1p20, 0x1p-20, 0x1p-20}, Units{0x1p20, 0x1p20, 1.0},
                             Units{0x1p-10, 0x1p-10, 1.0}})
     CHECK(path_in(units, origin, law, pressure_of<PackingType>(), 500) == base);
-  // Round-off, 1e-12 over overlaps, grows to 1e-11 (discs) and 1e-10 (spheres) within these steps and is of the size of the
-  // path after some 600 steps of spheres.
+  // Round-off, 1e-12 over overlaps, grows to 1e-11 (discs) and 1e-10 (spheres) within these steps and is of the size of
+  // the path after some 600 steps of spheres.
   std::vector<double> const begun(base.begin(), base.begin() + 150);
   for (Units const units :
        {Units{1e-6, 1e6, 1e6}, Units{1e6, 1e-6, 1.0}, Units{1e-6, 1e-6, 1.0}, Units{1e6, 1e6, 1e-6}})
@@ -263,7 +263,8 @@ TEST_CASE("in the smallest unit of force spheres still have the same path") {
 
 TEST_CASE("an eighth of the strain step leaves less than half of what inertia does to a path") {
   constexpr double strain = 1e-3;
-  // Mean error of the axial stress up to that strain, added up over some packings since one alone is a matter of chance.
+  // Mean error of the axial stress up to that strain, added up over some packings since one alone is a matter of
+  // chance.
   auto const mean_of = [](std::uint64_t seed, double rate) {
     auto const& prepared = samples::consolidated<Discs>(80, seed);
     REQUIRE(prepared.verdict.acceptable());
@@ -279,8 +280,8 @@ TEST_CASE("an eighth of the strain step leaves less than half of what inertia do
     for (double const rate : {4e-5, 2e-5, 1e-5, 5e-6}) error[rate] += std::abs(mean_of(seed, rate) - slow) / 6.0;
   }
   MESSAGE("errors " << error[4e-5] << ", " << error[2e-5] << ", " << error[1e-5] << ", " << error[5e-6]);
-  // Inertia and the lag of the held stress are of first order in the rate: an eighth. Which contacts slide first is a matter
-  // of chance and hides the order in so few grains, so a half is asked.
+  // Inertia and the lag of the held stress are of first order in the rate: an eighth. Which contacts slide first is a
+  // matter of chance and hides the order in so few grains, so a half is asked.
   CHECK(error[5e-6] < 0.5 * error[4e-5]);
   CHECK(error[1e-5] < 1e-3);  // of the lateral pressure, at the rate that other tests use
 }

@@ -33,8 +33,9 @@ EnergyLedger<PackingType::dim> ledger_of(PackingType packing, scarp::LinearFrict
   return ledger;
 }
 
-/// Every part of the balance is there, and the balance closes: rates are integrated with the mean of two steps, whose error is
-/// of second order in a step's motion; 1e-3 of the work is far above that and far below any part that could be missing.
+/// Every part of the balance is there, and the balance closes: rates are integrated with the mean of two steps, whose
+/// error is of second order in a step's motion; 1e-3 of the work is far above that and far below any part that could be
+/// missing.
 template <int Dim>
 void check_closed(EnergyLedger<Dim> const& ledger) {
   CHECK(ledger.work_in > 0.0);
@@ -65,7 +66,8 @@ TEST_CASE("the balance closes over reversals, whose steps belong to the motion b
     REQUIRE(drive.step(stepper).acceptable());
     ledger.enter(drive.seen(), volume, drive.strain_step());
   }
-  // A hundred reversals: with the slip of one step counted the wrong way round at each, the gap is of the work's own size.
+  // A hundred reversals: with the slip of one step counted the wrong way round at each, the gap is of the work's own
+  // size.
   CHECK(std::abs(ledger.gap()) < 0.01 * ledger.work_in);
   MESSAGE("gap " << ledger.gap() << " of work " << ledger.work_in);
 }

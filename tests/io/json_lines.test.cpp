@@ -60,7 +60,8 @@ TEST_CASE("text that is not UTF-8 becomes JSON with replacement characters") {
                            "den") ==
         "\"b\xEF\xBF\xBD"
         "den\"");
-  // Analytic: RFC 3629. Sound characters of one to four bytes; forms too long, halves of pairs, beyond U+10FFFF, cut off.
+  // Analytic: RFC 3629. Sound characters of one to four bytes; forms too long, halves of pairs, beyond U+10FFFF, cut
+  // off.
   for (std::string const sound :
        {"a", "\xC3\xB6", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\xED\x9F\xBF", "\xF4\x8F\xBF\xBF"})
     CHECK(scarp::valid_utf8(sound) == sound);

@@ -16,8 +16,8 @@
 #include "scarp/element/tri6.hpp"
 #include "scarp/mesh/mesh.hpp"
 
-/// Small meshes of each element type whose volumes are known: a box of 2 x 1 (x 1) m, sheared or bent. Mid-side nodes stand
-/// in the order of VTK's file formats, listed here anew.
+/// Small meshes of each element type whose volumes are known: a box of 2 x 1 (x 1) m, sheared or bent. Mid-side nodes
+/// stand in the order of VTK's file formats, listed here anew.
 namespace samples {
 
 using Lattice = std::array<int, 3>;  ///< quarters of the box in x, halves in y and z: middles of sides lie on it too

@@ -62,8 +62,9 @@ CsvTable mesh_boundary_table(Mesh<Element> const& mesh) {
 
 }  // namespace detail
 
-/// Writes what Python compares a mesh with: nodes.csv (node, x, y and in 3D z [m]), elements.csv (element, region by name, n0, n1,
-/// ...: node numbers from 0 in the order of VTK) and boundaries.csv (boundary by name, n0, n1, ...: nodes of one side).
+/// Writes what Python compares a mesh with: nodes.csv (node, x, y and in 3D z [m]), elements.csv (element, region by
+/// name, n0, n1, ...: node numbers from 0 in the order of VTK) and boundaries.csv (boundary by name, n0, n1, ...: nodes
+/// of one side).
 /// Coordinates keep every bit.
 template <class Element>
 void write_mesh_tables(std::filesystem::path const& folder, Mesh<Element> const& mesh) {

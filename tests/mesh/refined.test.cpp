@@ -193,8 +193,8 @@ TEST_CASE("quadrilaterals of squares become squares and thirds of right-angled t
   // Analytic: a third of the triangle (0, 0), (1, 0), (0, 1) has angles from 45 degrees to 90 + 2 atan(1/2) degrees.
   CHECK(shapes.least == samples::Approx(45.0));
   CHECK(shapes.largest == samples::Approx(90.0 + 2.0 * std::atan(0.5) * 180.0 / std::numbers::pi));
-  // Half of a hypotenuse, 1.1893 * sqrt(2) sizes; the size, with its slope of 0.25, counts at the centre of the triangle, 0.2
-  // hypotenuses from that of the third.
+  // Half of a hypotenuse, 1.1893 * sqrt(2) sizes; the size, with its slope of 0.25, counts at the centre of the
+  // triangle, 0.2 hypotenuses from that of the third.
   double const largest = 1.1893 * std::numbers::sqrt2;
   CHECK(shapes.over_size < largest / (1.0 - 0.25 * 0.2 * 2.0 * largest));
 }

@@ -25,8 +25,8 @@ using scarp::Verdict;
 template <class Shape>
 using Smooth = scarp::Packing<Shape, scarp::Frictionless>;
 
-/// Row, row and the lattice vector by which the second is moved; as in the list, the first is the smaller one or the lattice
-/// vector's first component that is not zero is positive.
+/// Row, row and the lattice vector by which the second is moved; as in the list, the first is the smaller one or the
+/// lattice vector's first component that is not zero is positive.
 template <int Dim>
 using Meeting = std::tuple<std::size_t, std::size_t, std::array<int, static_cast<std::size_t>(Dim)>>;
 
@@ -37,7 +37,8 @@ struct Answer {
   std::vector<bool> too_deep;          ///< grains on top of others, where several directions of least overlap compete
 };
 
-/// Radius of curvature [m] at the tips of an oval, b^2/a; of a superellipse the stand-in that falls to zero at exponent two.
+/// Radius of curvature [m] at the tips of an oval, b^2/a; of a superellipse the stand-in that falls to zero at exponent
+/// two.
 template <class Size>
 double tip_radius(Size const& size) {
   double const shorter = std::min(size[0], size[1]);
@@ -128,8 +129,8 @@ Answer<Shape::dim> listed(Smooth<Shape> packing, scarp::Frictionless const& law)
   return answer;
 }
 
-/// Grains of sizes from 1 to `ratio` thrown into the cell and those about it; where there is room, no two are closer than a
-/// share of their bounding radii.
+/// Grains of sizes from 1 to `ratio` thrown into the cell and those about it; where there is room, no two are closer
+/// than a share of their bounding radii.
 template <class Shape>
 Smooth<Shape> heap(scarp::Random& random, std::size_t grains, double ratio, Tensor<Shape::dim> const& cell) {
   constexpr int dim = Shape::dim;

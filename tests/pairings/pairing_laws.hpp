@@ -10,7 +10,8 @@
 #include "pairings/pairings.hpp"
 #include "pairings/specimen.hpp"
 
-/// What a packing of any shape with any law obeys. Forces are read from the velocities that they cause, without damping.
+/// What a packing of any shape with any law obeys. Forces are read from the velocities that they cause, without
+/// damping.
 namespace pairings {
 
 using scarp::Reason;
@@ -93,9 +94,9 @@ double difference(Grains<Dim> const& a, Grains<Dim> const& b) {
   return worst / largest;
 }
 
-/// Round-off of 1e-16 in places of up to thirty units over overlaps of some tenths, which grows tenfold along the short path;
-/// in space the critical step brings in an eigenvalue in closed form, good to 1e-8. A wrong sign or a lost image makes a
-/// difference of order one.
+/// Round-off of 1e-16 in places of up to thirty units over overlaps of some tenths, which grows tenfold along the short
+/// path; in space the critical step brings in an eigenvalue in closed form, good to 1e-8. A wrong sign or a lost image
+/// makes a difference of order one.
 template <int Dim>
 inline constexpr double round_off = Dim == 2 ? 1e-11 : 1e-7;
 inline constexpr int short_path = 8;

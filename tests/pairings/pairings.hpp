@@ -44,10 +44,10 @@ inline constexpr auto wrappings = hana::tuple_t<Bare, BondedAndRolling>;
 inline constexpr std::size_t laws_per_shape = 5;
 #endif
 
-/// Not every law can be wrapped: a bond goes on using the law's springs where the law itself opens or slides, which only
-/// springs of constant stiffness with friction allow. Nothing else is left out. Laws that want a radius of curvature are let
-/// in with ellipses, superellipses and clumps, whose contact radius is nominal: the forces are then no theory's, but they are
-/// still forces between two grains.
+/// Not every law can be wrapped: a bond goes on using the law's springs where the law itself opens or slides, which
+/// only springs of constant stiffness with friction allow. Nothing else is left out. Laws that want a radius of
+/// curvature are let in with ellipses, superellipses and clumps, whose contact radius is nominal: the forces are then
+/// no theory's, but they are still forces between two grains.
 template <class Contact, class Wrapping>
 concept MakesSense = requires {
   typename Wrapping::template Around<Contact>;

@@ -10,7 +10,8 @@
 #include "scarp/core/random.hpp"
 #include "scarp/dem/time_stepping.hpp"
 
-/// A packing under test without its types, so that what is asked of all of them is compiled once: seconds per pairing count.
+/// A packing under test without its types, so that what is asked of all of them is compiled once: seconds per pairing
+/// count.
 namespace pairings {
 
 using scarp::Tensor;

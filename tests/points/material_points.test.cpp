@@ -373,13 +373,13 @@ TEST_CASE("regions that do not fit the mesh are refused by name") {
   auto const grid = ground_with_footing();
   auto raft = footing();
   raft.name = "raft";
-  CHECK_REFUSED(made(grid, soil()), "region 'footing' of the mesh has no provider");
+  CHECK_REFUSED(made(grid, soil()), "region 'footing' of the mesh has no material");
   CHECK_REFUSED(made(grid, soil(), raft), "there is no region 'raft' (the mesh has: soil, footing)");
-  CHECK_REFUSED(made(grid, soil(), footing(), soil()), "region 'soil' is given two providers");
+  CHECK_REFUSED(made(grid, soil(), footing(), soil()), "region 'soil' is given two materials");
   std::vector<std::string> const names{"soil"};
   std::vector<scarp::Site<2>> const outside{{.region = 1}};
   CHECK_REFUSED(scarp::points_of_regions<2>(hana::make_tuple(soil()), names, outside, {}, [](int) { return true; }),
-                "region '1' of the mesh has no provider (point 0 lies in it)");
+                "region '1' of the mesh has no material (point 0 lies in it)");
 }
 
 TEST_CASE("points are not refined without a response") {

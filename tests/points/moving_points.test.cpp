@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a program does that refines its mesh and shares its points out among processes: points are copied, mirrored, sent and seen
-// across the border between two processes.
+// What a program does that refines its mesh and shares its points out among processes: points are copied, mirrored,
+// sent and seen across the border between two processes.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -147,7 +147,8 @@ TEST_CASE("points that were saved and loaded go on with the same bits") {
 }
 
 TEST_CASE("the volume that points see is that of all of them, whatever each one does") {
-  // Two points that see each other alike; their volumes are exp(x) and exp(-x) times the initial ones, all of it cosh(x).
+  // Two points that see each other alike; their volumes are exp(x) and exp(-x) times the initial ones, all of it
+  // cosh(x).
   scarp::NeighbourMean const alike({0, 2, 4}, {{0, 0.5}, {1, 0.5}, {0, 0.5}, {1, 0.5}});
   std::vector const neighbourhoods(2, scarp::Neighbourhood{.length = 1.0});
   scarp::NonlocalMeans<2> means(alike, neighbourhoods, std::vector(2, scarp::VoigtTangent<2>::Zero().eval()));

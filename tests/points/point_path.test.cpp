@@ -145,7 +145,8 @@ TEST_CASE("Mohr-Coulomb points, drained: ratio of principal stresses and dilatio
     CHECK(ratio<dim>(test.path.stress(0)) == Approx(expected).epsilon(tiny));
     auto const before = test.path.strain(0);
     test.go(direction * 0.01);
-    // Flow on any planes of the surface: -d eps_v / sum of |d eps_i| = sin psi; all strain is plastic, stress is constant.
+    // Flow on any planes of the surface: -d eps_v / sum of |d eps_i| = sin psi; all strain is plastic, stress is
+    // constant.
     scarp::Vector<dim> const change = (test.path.strain(0) - before).template head<dim>();
     CHECK(change.sum() / change.cwiseAbs().sum() == Approx(std::sin(10.0 * degree)).epsilon(1e-7));
   };

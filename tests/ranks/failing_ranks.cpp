@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// What one rank throws ends all ranks with its words: `mpirun -np 3 failing_ranks WHO`, where WHO throws: "task" (of a point of rank 1),
-// "first" (the root rank, while the others serve), "answer" (rank 2, when it is asked) or "nobody"; "file": the root cannot write a file of a run, which stops on all ranks.
+// What one rank throws ends all ranks with its words: `mpirun -np 3 failing_ranks WHO`, where WHO throws: "task" (of a
+// point of rank 1), "first" (the root rank, while the others serve), "answer" (rank 2, when it is asked) or "nobody";
+// "file": the root cannot write a file of a run, which stops on all ranks.
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>

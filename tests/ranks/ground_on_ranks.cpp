@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks THREADS LENGTH [FOLDER [ATTEMPTS]]`.
-// Prints the bits of the result and what each rank holds. Points look LENGTH [m] around themselves, 0: they are local; "wet": they are,
-// and water fills their pores. With a folder it saves checkpoints there after every attempt and goes on from them; with a number of
-// attempts it stops after so many.
+// A small fault in packings whose points are shared out among MPI ranks: `mpirun -np 3 ground_on_ranks THREADS LENGTH
+// [FOLDER [ATTEMPTS]]`.
+// Prints the bits of the result and what each rank holds. Points look LENGTH [m] around themselves, 0: they are local;
+// "wet": they are, and water fills their pores. With a folder it saves checkpoints there after every attempt and goes
+// on from them; with a number of attempts it stops after so many.
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>

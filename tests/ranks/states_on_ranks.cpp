@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// States of all kinds on MPI ranks: `mpirun -np 2 states_on_ranks FOLDER` pulls a block of each nesting of adaptors, in one go and in
-// parts from checkpoints, both with observers on the root rank, and prints a hash of all that was seen.
+// States of all kinds on MPI ranks: `mpirun -np 2 states_on_ranks FOLDER` pulls a block of each nesting of adaptors, in
+// one go and in parts from checkpoints, both with observers on the root rank, and prints a hash of all that was seen.
 #define DOCTEST_CONFIG_IMPLEMENT  // without doctest's main(), but what it shares with the tests asks for the rest
 #include <doctest/doctest.h>
 #include <fmt/format.h>

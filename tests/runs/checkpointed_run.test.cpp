@@ -106,8 +106,8 @@ struct Outcome {
   std::string trouble;
 };
 
-/// A softening block that is settled, pulled with refused steps on the way, and pulled on nearly to its peak, by objects that
-/// are all made anew.
+/// A softening block that is settled, pulled with refused steps on the way, and pulled on nearly to its peak, by
+/// objects that are all made anew.
 Outcome pull(ScratchFolder const& folder, scarp::CheckpointFiles files, Ending ending, bool has_budget = true) {
   scarp::SerialExecutor serial;
   auto problem = Block::make({.reference_strain = 0.02, .largest_increment = 4e-3}, serial);
@@ -215,7 +215,8 @@ TEST_CASE("a run that is stopped before every attempt and continued by new objec
     ++parts;
   } while (outcome.report.verdict.reason == scarp::Reason::interrupted && parts < 100);
   check_same(outcome, undisturbed());
-  // The step that settles begins without a question; every other attempt is a part, and the first stage's end makes one more at most.
+  // The step that settles begins without a question; every other attempt is a part, and the first stage's end makes one
+  // more at most.
   int const attempts = undisturbed().report.steps + undisturbed().report.refused;
   CHECK(attempts > 10);
   CHECK(parts >= attempts - 1);
@@ -422,8 +423,8 @@ TEST_CASE("a run of three hundred steps holds no more memory than one of thirty"
 }
 #endif
 
-// A checkpoint on somebody's disk, not one that this program has just written. Where a saved type or the format's version changes,
-// raise the version; this command writes the new one, and the old one stays to be refused:
+// A checkpoint on somebody's disk, not one that this program has just written. Where a saved type or the format's
+// version changes, raise the version; this command writes the new one, and the old one stays to be refused:
 // SCARP_STORE=1 ctest --test-dir build -R runs/checkpointed_run
 TEST_CASE(
     "a checkpoint that was stored is continued, or refused with its version where the format has another one now") {

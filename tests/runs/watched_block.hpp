@@ -25,7 +25,8 @@
 #include "support/crossed_rectangle.hpp"
 #include "support/files.hpp"
 
-/// A block whose top is pulled until it is fluid, seen by all observers that remember something, on one process or several.
+/// A block whose top is pulled until it is fluid, seen by all observers that remember something, on one process or
+/// several.
 namespace watched {
 
 using Problem = scarp::EquilibriumProblem<scarp::Discretisation<scarp::Tri3, scarp::SmallStrain>>;

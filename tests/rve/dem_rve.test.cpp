@@ -79,8 +79,8 @@ TEST_CASE("a packing that is turned keeps its stress in its own frame through a 
   auto const first = turn_round(provider, settled, quarter, 90);
   auto const full = turn_round(provider, settled, 4.0 * quarter, 360);
   MESSAGE("deviation after a quarter turn " << first.worst << ", after a full turn " << full.back);
-  // One time step turns by 9e-4 rad and is explicit: a relative error of its square, 8e-7, that settles between the steps
-  // instead of adding up; ten times that is allowed.
+  // One time step turns by 9e-4 rad and is explicit: a relative error of its square, 8e-7, that settles between the
+  // steps instead of adding up; ten times that is allowed.
   CHECK(first.worst < 8e-6);
   CHECK(full.worst < 8e-6);
 }

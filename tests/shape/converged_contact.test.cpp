@@ -74,8 +74,8 @@ struct NeverSettles : scarp::Disc {
 };
 static_assert(!scarp::HasSupport<NeverSettles>);
 
-/// Largest error of the overlap, over the size, of pairs that move as in a packing: from the last normal to the next, `pace`
-/// of the size in a step, searched anew where the touch says that it is normal_error.
+/// Largest error of the overlap, over the size, of pairs that move as in a packing: from the last normal to the next,
+/// `pace` of the size in a step, searched anew where the touch says that it is normal_error.
 template <class Shape>
 double worst_followed(scarp::SizeOf<Shape> const& size, double pace, std::uint64_t seed) {
   using Grains = scarp::Population<Shape>;

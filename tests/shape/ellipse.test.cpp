@@ -131,8 +131,8 @@ TEST_CASE(
     };
     auto const coarse = errors(4e-3);
     auto const fine = errors(1e-3);
-    // Analytic orders: factors 4^3 and 4^2 for a four times smaller start error. Higher terms spoil them by a share of d
-    // times a ratio of curvature derivatives, below 20 %; a constant that happens to vanish makes the order higher.
+    // Analytic orders: factors 4^3 and 4^2 for a four times smaller start error. Higher terms spoil them by a share of
+    // d times a ratio of curvature derivatives, below 20 %; a constant that happens to vanish makes the order higher.
     CHECK(coarse[0] > 50.0 * fine[0]);
     CHECK(coarse[1] > 13.0 * fine[1]);
     CHECK(coarse[0] < 100.0 * std::pow(4e-3, 3));

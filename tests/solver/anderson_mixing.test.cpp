@@ -70,8 +70,8 @@ Eigen::VectorXd gathered(InTwoParts const& vector) {
 }  // namespace
 
 TEST_CASE("a linear problem of n unknowns is solved by n + 1 mixes") {
-  // Analytic: equivalent to GMRES (Walker and Ni 2011, theorem 2.2), which ends after n steps; the last mix is the step to
-  // that point. Round-off is amplified by the conditioning of the differences.
+  // Analytic: equivalent to GMRES (Walker and Ni 2011, theorem 2.2), which ends after n steps; the last mix is the step
+  // to that point. Round-off is amplified by the conditioning of the differences.
   for (int const size : {1, 2, 3, 5}) {
     Linear const problem(size);
     Mixing mixing(size);

@@ -20,7 +20,8 @@ using Soil = scarp::MohrCoulomb<2>;
 
 scarp::IsotropicElasticity stiffness() { return scarp::IsotropicElasticity::from_young_poisson(100e6, 0.3); }
 
-/// A slope of 2 to 1 on a rough base, 10 m high, as in Griffiths and Lane (1999), example 1: phi = 20 degrees, c = 0.05 gamma H, no dilation.
+/// A slope of 2 to 1 on a rough base, 10 m high, as in Griffiths and Lane (1999), example 1: phi = 20 degrees, c = 0.05
+/// gamma H, no dilation.
 scarp::Model<2> slope(double factor) {
   double const height = 10.0, crest = 12.0, weight = 20e3;
   scarp::Model<2> model(Grid(scarp::BoxMesh<scarp::Quad8>{

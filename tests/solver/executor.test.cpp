@@ -127,8 +127,8 @@ constexpr bool sanitized = false;
 constexpr bool sanitized = false;
 #endif
 
-/// What a child process writes that may have no more than so many bytes of addresses above those that it has; "killed" when it
-/// does not end within 20 seconds.
+/// What a child process writes that may have no more than so many bytes of addresses above those that it has; "killed"
+/// when it does not end within 20 seconds.
 template <class Action>
 std::string within_memory(rlim_t more, Action const& action) {
   std::array<int, 2> ends{};

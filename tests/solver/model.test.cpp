@@ -96,7 +96,7 @@ TEST_CASE("names that the mesh does not have, and regions without material, are 
         samples::Naming{"there is no region 'clay'"});
   CHECK(samples::message_of([&] { model.gravity(-1.0); }) == samples::Naming{"unit weight"});
   CHECK(samples::message_of([&] { scarp::Analysis{model}; }) ==
-        samples::Naming{"region 'soil' of the mesh has no provider"});
+        samples::Naming{"region 'soil' of the mesh has no material"});
   model.material("clay", scarp::LinearElastic<2>::from_young_poisson(young, 0.25));
   CHECK(samples::message_of([&] { scarp::Analysis{model}; }) == samples::Naming{"there is no region 'clay'"});
 }

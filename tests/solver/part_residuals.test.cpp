@@ -13,8 +13,8 @@ using Problem = scarp::EquilibriumProblem<Grid>;
 constexpr double ground_weight = 20e3 * 4.0 * 4.0;  // [N], unit weight times width, height; 1 m thick
 constexpr double footing_weight = 0.1e3 * 4.0 * 1.0;
 
-/// 4 m x 4 m of heavy ground, fixed at its base, below a light block 1 m high that shares its nodes. The load factor places
-/// the block.
+/// 4 m x 4 m of heavy ground, fixed at its base, below a light block 1 m high that shares its nodes. The load factor
+/// places the block.
 template <class Provider>
 Problem ground_with_block(Provider const& provider, scarp::SerialExecutor& executor) {
   auto mesh = samples::CrossedRectangle{.width = 4.0, .height = 5.0, .columns = 4, .rows = 5}.generate();
@@ -139,8 +139,8 @@ TEST_CASE("forces that turn a block without pushing it count as well") {
   Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(problem.dof_count());
   unbalanced(2 * base.front() + 1) = 1.0;
   unbalanced(2 * base.back() + 1) = -1.0;
-  // Analytic: couple 1 N x 4 m over the radius of the 14 nodes of a row of crossed triangles, two lines of five nodes 0.5 m
-  // off the middle and four centres: squares of x sum up to 25, those of y to 2.5.
+  // Analytic: couple 1 N x 4 m over the radius of the 14 nodes of a row of crossed triangles, two lines of five nodes
+  // 0.5 m off the middle and four centres: squares of x sum up to 25, those of y to 2.5.
   double const radius = std::sqrt(27.5 / 14.0);
   CHECK(value_of(problem.residuals(unbalanced), "footing") == samples::Approx(4.0 / radius / (footing_weight / 1.5)));
 }

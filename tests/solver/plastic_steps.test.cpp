@@ -143,8 +143,9 @@ TEST_CASE("the default solver of a plastic body is Newton's method to six digits
 
 TEST_CASE("Newton's residuals fall quadratically on smooth plastic steps") {
   scarp::SerialExecutor executor;
-  // Stiff, so that the strains are small: materials measure the stretch of an increment, small strain gives them its gradient, and
-  // their derivatives differ by the strain, which becomes a linear rate. Round-off of the strain grows with the stiffness.
+  // Stiff, so that the strains are small: materials measure the stretch of an increment, small strain gives them its
+  // gradient, and their derivatives differ by the strain, which becomes a linear rate. Round-off of the strain grows
+  // with the stiffness.
   double const young = 1e9;
   auto problem = distorted_body<scarp::Quad4>(
       3, executor,

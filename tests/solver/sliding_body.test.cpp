@@ -26,9 +26,9 @@ constexpr double friction = 0.5;
 constexpr double stiffness = 1e8;  // [Pa/m]
 constexpr double weight = 74e3;    // [N]: 37 kPa on 2 m, so that 0.2 mm of slip is elastic
 
-/// Ground of 6 m whose nodes move as `motion` says, and a footing on it, 2 m wide with its centre at 3 m; its weight is there
-/// from the start. above [m]: where the base floats at first, over the ground. scale: of all lengths, at equal stresses; the
-/// motion is given for the scale 1
+/// Ground of 6 m whose nodes move as `motion` says, and a footing on it, 2 m wide with its centre at 3 m; its weight is
+/// there from the start. above [m]: where the base floats at first, over the ground. scale: of all lengths, at equal
+/// stresses; the motion is given for the scale 1
 template <class Motion>
 Problem moved_ground(scarp::SerialExecutor& executor, Motion const& motion, double above = 0.0, double scale = 1.0) {
   Grid grid(

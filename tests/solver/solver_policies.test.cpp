@@ -14,8 +14,8 @@ using scarp::Verdict;
 
 enum class Illness { none, no_number, exploded, stuck };
 
-/// Softening ground. One point may fall ill when it is strained beyond a limit, in increments that are too large. Answers may jump
-/// by a stress and be `not_converged` while the plan is below 4.
+/// Softening ground. One point may fall ill when it is strained beyond a limit, in increments that are too large.
+/// Answers may jump by a stress and be `not_converged` while the plan is below 4.
 struct Ground {
   static constexpr int dim = 2;
   using State = Softening::State;
@@ -115,8 +115,8 @@ TEST_CASE("another tangent rule brings a softening block past its peak to the sa
   CHECK(run.largest_residual <= solver.tolerance);
   scarp::QuasiNewton<> const other{.tolerance = 1e-8, .max_iterations = 100};
   REQUIRE(stepping().run(other, same, 0.0, 0.02, no_observer).verdict == Verdict{});
-  // The law knows the total strain only, so that the path does not matter: a residual of 1e-8 of the reactions, magnified by the
-  // mild loss of stiffness past the peak.
+  // The law knows the total strain only, so that the path does not matter: a residual of 1e-8 of the reactions,
+  // magnified by the mild loss of stiffness past the peak.
   for (std::size_t n = 0; n < same.discretisation().positions().size(); ++n) {
     CHECK((problem.discretisation().positions()[n] - same.discretisation().positions()[n]).norm() < 1e-7);
   }

@@ -67,7 +67,8 @@ TEST_CASE("a step starts between what the provider says and what was learned") {
 
 TEST_CASE(
     "a tangent that learns from simple shear under an initial stress learns the shear modulus, not the rotation") {
-  // G = 100 kPa at (-40, -100) kPa. The raw change of Cauchy's stress in simple shear g is (G + (s_yy - s_xx)/2) g: 70 kPa.
+  // G = 100 kPa at (-40, -100) kPa. The raw change of Cauchy's stress in simple shear g is (G + (s_yy - s_xx)/2) g: 70
+  // kPa.
   using Soil = scarp::LinearElastic<2, scarp::GeostaticStress<2>>;
   auto const soil = Soil::from_lame(100e3, 100e3, {.surcharge = 100e3, .unit_weight = 0.0, .k0 = 0.4});
   auto const committed = soil.initial_state({});

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <ostream>
 
-/// Tolerances relative to what is compared and to nothing else. doctest::Approx(x).epsilon(e) allows e (1 + |x|): for numbers
-/// far below one, such as overlaps in metres, that is no test at all.
+/// Tolerances relative to what is compared and to nothing else. doctest::Approx(x).epsilon(e) allows e (1 + |x|): for
+/// numbers far below one, such as overlaps in metres, that is no test at all.
 namespace samples {
 
 inline double relative_error(double value, double expected) { return std::abs(value - expected) / std::abs(expected); }

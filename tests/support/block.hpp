@@ -21,9 +21,11 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline scarp::LinearElastic<2> elastic_soil() { return scarp::LinearElastic<2>::from_young_poisson(20e6, 0.3); }
 
-/// Elasticity that softens smoothly: \f$ \sigma = (r + (1-r) e^{-x^2})\, C \varepsilon,\; x = |\varepsilon|/\varepsilon_0,\;
-/// r = 0.2 \f$ of the total strain. In one dimension its slope falls to \f$ r - 2 (1-r) e^{-3/2} = -0.16 \f$ of the elastic
-/// one: a peak, but too mild for the rest of a block to snap back. The tangent that it tells is elastic, as a packing's.
+/// Elasticity that softens smoothly: \f$ \sigma = (r + (1-r) e^{-x^2})\, C \varepsilon,\; x =
+/// |\varepsilon|/\varepsilon_0,\; r = 0.2 \f$ of the total strain. In one dimension its slope falls to \f$ r - 2 (1-r)
+/// e^{-3/2} = -0.16 \f$ of the elastic
+/// one: a peak, but too mild for the rest of a block to snap back. The tangent that it tells is elastic, as a
+/// packing's.
 struct Softening {
   static constexpr int dim = 2;
   struct State {
@@ -103,7 +105,8 @@ struct Planning {
   }
 };
 
-/// A tangent rule of a user's: the provider's tangent at the start of a step, unchanged while it iterates (modified Newton).
+/// A tangent rule of a user's: the provider's tangent at the start of a step, unchanged while it iterates (modified
+/// Newton).
 struct Frozen {
   template <int Dim>
   scarp::VoigtTangent<Dim> start(scarp::VoigtTangent<Dim> const& provider, scarp::VoigtTangent<Dim> const&) const {

@@ -5,8 +5,9 @@
 #include "scarp/element/tet10.hpp"
 #include "scarp/element/tri6.hpp"
 
-/// Types of element that template tests run over. Compiling a test for an element takes seconds: the slow size has a few that
-/// together have both dimensions, simplices and not, straight and quadratic sides; the nightly size has every element.
+/// Types of element that template tests run over. Compiling a test for an element takes seconds: the slow size has a
+/// few that together have both dimensions, simplices and not, straight and quadratic sides; the nightly size has every
+/// element.
 #ifdef SCARP_TESTS_NIGHTLY
 #define ALSO_NIGHTLY(...) , __VA_ARGS__
 #else

@@ -25,7 +25,8 @@ inline scarp::FreeFieldFault<ElasticSoil> elastic_ground() {
   return scene;
 }
 
-/// Packings of 36 ellipses in elements of up to 24 m, a throw of a five-hundredth of the depth; prepared once per program.
+/// Packings of 36 ellipses in elements of up to 24 m, a throw of a five-hundredth of the depth; prepared once per
+/// program.
 inline scarp::FreeFieldFault<Sand> const& sandy_ground() {
   static scarp::FreeFieldFault<Sand> const made = [] {
     scarp::FreeFieldFault<Sand> scene;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The reference study's scene with all that may be part of it: a footing that may slide and lift, a nonlocal length, observers,
-// checkpoints, and ranks where there is an MPI.
+// The reference study's scene with all that may be part of it: a footing that may slide and lift, a nonlocal length,
+// observers, checkpoints, and ranks where there is an MPI.
 #include <filesystem>
 
 #include "../../../examples/fault_rupture/footing_log.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Normal and shear force of single contacts by scarp's laws, for sketch_laws.png:
-// g++ -std=c++20 -Iinclude -isystem /usr/include/eigen3 docs/site/sketches/law_curves.cpp -lfmt -o build/law_curves && build/law_curves
+// g++ -std=c++20 -Iinclude -isystem /usr/include/eigen3 docs/site/sketches/law_curves.cpp -lfmt -o build/law_curves &&
+// build/law_curves
 #include <fmt/core.h>
 
 #include "scarp/contact/cohesive_bond.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Kernels of discs and ellipses with linear contacts: so many grains and near pairs, up to what the memory of a block holds.
+// Kernels of discs and ellipses with linear contacts: so many grains and near pairs, up to what the memory of a block
+// holds.
 #include "scarp/contact/linear_frictional.hpp"
 #include "scarp/cuda/cuda_kernels.hpp"
 #include "scarp/dem/damping.hpp"

@@ -9,7 +9,8 @@
 
 namespace examples {
 
-/// A sieve curve from the text of a sand's option: "0.002 0, 0.006 100", diameters [m] and per cent. A point that is given twice counts once.
+/// A sieve curve from the text of a sand's option: "0.002 0, 0.006 100", diameters [m] and per cent. A point that is
+/// given twice counts once.
 /// \throws InputError
 inline SieveCurve sieve_curve(std::string const& text) {
   constexpr double largest = 1.0;  // [m]; larger ones are in mm

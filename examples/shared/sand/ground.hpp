@@ -15,9 +15,9 @@
 
 namespace examples {
 
-/// Level ground of a sand, one packing for each depth [m]. Void ratio and relative density are those that the packing has when it is
-/// compressed isotropically to the sand's pressure instead; it may be off by 0.01, over which packings of few grains jump; a note tells it
-/// where it is by more than the sand's tolerance.
+/// Level ground of a sand, one packing for each depth [m]. Void ratio and relative density are those that the packing
+/// has when it is compressed isotropically to the sand's pressure instead; it may be off by 0.01, over which packings
+/// of few grains jump; a note tells it where it is by more than the sand's tolerance.
 /// unit_weight [N/m3], surcharge [Pa]
 /// \throws InputError, PreparationError
 template <class PackingType>

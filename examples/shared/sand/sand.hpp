@@ -19,7 +19,8 @@ struct Range {
 };
 inline constexpr Range positive{.inclusive = false};
 
-/// Grains, contacts and preparation of a sand. Of preparation friction, void ratio and relative density the last one that is not zero counts.
+/// Grains, contacts and preparation of a sand. Of preparation friction, void ratio and relative density the last one
+/// that is not zero counts.
 struct Sand {
   std::string shape = "disc";
   std::string law = "linear";

@@ -69,8 +69,8 @@ inline Sand read_sand(std::filesystem::path const& path, Sand sand = {}, IsGiven
   return sand;
 }
 
-/// The text that read_sand reads: all options that the sand uses, with what they are. A ratio of no vertical pressure is left to the
-/// program that reads it: ground has one of its own.
+/// The text that read_sand reads: all options that the sand uses, with what they are. A ratio of no vertical pressure
+/// is left to the program that reads it: ground has one of its own.
 inline std::string text_of(Sand const& sand) {
   std::string text;
   bool const bisects = sand.void_ratio > 0.0 || sand.relative_density > 0.0;

@@ -11,8 +11,8 @@
 
 namespace examples {
 
-/// Sizes of grains from a sieve analysis: the share of the mass that passes each diameter, straight lines between the sieves over the
-/// logarithm of the diameter, as it is plotted.
+/// Sizes of grains from a sieve analysis: the share of the mass that passes each diameter, straight lines between the
+/// sieves over the logarithm of the diameter, as it is plotted.
 struct SieveCurve {
   std::vector<double> diameters;  ///< [m], increasing
   std::vector<double> passing;    ///< share of the mass, from 0 to 1, one for each diameter
@@ -39,11 +39,12 @@ struct SieveCurve {
           100.0 * passing.front(), 100.0 * passing.back());
   }
 
-  /// Diameters [m] of grains whose mass has the curve within a tenth of all: drawn by number or, where chance misses the curve, one for
-  /// each class of equal number, with the mean mass of its class. Between two sieves the mass is uniform over ln d, hence the
-  /// number goes with \f$ d^{-1-n} \f$ in n dimensions.
+  /// Diameters [m] of grains whose mass has the curve within a tenth of all: drawn by number or, where chance misses
+  /// the curve, one for each class of equal number, with the mean mass of its class. Between two sieves the mass is
+  /// uniform over ln d, hence the number goes with \f$ d^{-1-n} \f$ in n dimensions.
   /// dim: 2 where grains are prisms, whose mass goes with the square of their diameter, else 3
-  /// \throws InputError for a curve so wide that the largest of these grains would carry more, with a number and a curve that do
+  /// \throws InputError for a curve so wide that the largest of these grains would carry more, with a number and a
+  /// curve that do
   std::vector<double> sample(scarp::Random& random, int dim, int grains) const {
     auto const inverse = [&](std::size_t k) { return std::pow(diameters[k], -dim); };
     std::vector<double> numbers{0.0};  // of grains up to each sieve, in proportion

@@ -184,8 +184,8 @@ struct Choice {
   double least_pressure() const { return std::max(surcharge, fault_rupture::surcharge) / 2.0; }
 };
 
-/// Whether the site is the reference study's, so that its places and ranges may stand beside the results: ground, fault and soil, whatever
-/// the mesh, the length and the grains of a packing are. With `study` any soil.
+/// Whether the site is the reference study's, so that its places and ranges may stand beside the results: ground, fault
+/// and soil, whatever the mesh, the length and the grains of a packing are. With `study` any soil.
 bool repeats_study(Choice const& choice);
 
 /// The sand at the surface, with the choice's grains, seed, density and friction.

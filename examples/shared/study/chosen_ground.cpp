@@ -43,7 +43,8 @@ void make_coarse(scarp::FaultMesh& layer, double size, double largest) {
   layer.coarsening = 1.0;
 }
 
-/// The median of the elements whose centre is within an eighth of the depth of the fault's own line, as a size of cells [m].
+/// The median of the elements whose centre is within an eighth of the depth of the fault's own line, as a size of cells
+/// [m].
 template <class E>
 double size_along_fault(ChosenGround<E> const& ground, ChosenFault const& fault) {
   constexpr auto corners = static_cast<std::size_t>(scarp::LinearOf<E>::nodes);

@@ -39,7 +39,8 @@ inline ChosenFault fault_of(Choice const& choice) {
   return {{.dip = choice.dip * std::numbers::pi / 180.0, .tip = choice.tip}, choice.reverse};
 }
 
-/// A layer in a mesh of its own or the mesh of a file, refined in a strip where there is one. Defined in chosen_ground.cpp for one element.
+/// A layer in a mesh of its own or the mesh of a file, refined in a strip where there is one. Defined in
+/// chosen_ground.cpp for one element.
 template <class ElementType>
 struct ChosenGround {
   using Element = ElementType;
@@ -62,8 +63,8 @@ void measure_mesh(Choice& choice, std::vector<std::string>& notes);
 template <class ElementType>
 double size_for(double length);
 
-/// Size of the elements and, unless it is chosen already, width of the strip that a length requires where it is too short
-/// for the usual mesh, or for that of the file.
+/// Size of the elements and, unless it is chosen already, width of the strip that a length requires where it is too
+/// short for the usual mesh, or for that of the file.
 /// \throws scarp::InputError for a length that requires too many elements
 template <class ElementType>
 void choose_strip(Choice& choice);

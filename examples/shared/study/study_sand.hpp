@@ -15,7 +15,8 @@ inline scarp::LinearFrictional study_law(double friction = 0.55) {
   return {.normal_stiffness = 6e6, .tangential_stiffness = 6e6, .friction = friction};
 }
 
-/// The reference study's grains: "radius between 4 mm and 6 mm" read as the semi-major axis; their aspect there is 0.75.
+/// The reference study's grains: "radius between 4 mm and 6 mm" read as the semi-major axis; their aspect there is
+/// 0.75.
 /// aspect: semi-minor over semi-major axis
 inline scarp::Cloud<scarp::EllipseGrading> study_cloud(int grains, std::uint64_t seed, double aspect = 0.75) {
   return {.grading = {.smallest = 4e-3, .largest = 6e-3, .aspect = aspect},

@@ -69,7 +69,7 @@ struct SampledDifferences {
     return found;
   }
 
-  /// Of all samples, also those that carry nothing; 0 without any.
+  /// Largest difference of all samples, also those that carry nothing; 0 without any.
   double largest() const {
     return std::accumulate(differences.begin(), differences.end(), 0.0,
                            [](double a, double b) { return nan_max(a, b); });

@@ -177,7 +177,7 @@ struct Attachments {
     Verdict const of_field = field ? field->add_forces(nodes, increment, forces) : Verdict{};
     return of_part.acceptable() ? of_field : of_part;
   }
-  // Of the forces that were requested last, shape (size, size) [N/m].
+  // Derivative of the forces that were requested last, shape (size, size) [N/m].
   Eigen::SparseMatrix<double> part_stiffness(int size) const {
     return assembled(part.get(), &AttachedPart<Dim>::add_stiffness, size);
   }

@@ -82,7 +82,7 @@ class Interface {
   /// Out of the plane, where the body has one [m].
   double thickness() const requires requires(Body const& body) { body.thickness(); }
   { return body_.thickness(); }
-  /// Of the body, where it has one [m].
+  /// Length of the body, where it has one [m].
   double length() const requires requires(Body const& body) { body.length(); }
   { return body_.length(); }
 

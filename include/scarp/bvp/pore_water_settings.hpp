@@ -29,7 +29,7 @@ struct WaterAtRest {
 
 /// What a `PoreWater` knows of ground and time.
 struct PoreWaterSettings {
-  /// Of the ground, in size [Pa]: it stabilises what an element cannot show, see PoreWater, and weighs the unknowns.
+  /// About that of the ground [Pa]: it stabilises what an element cannot show, see PoreWater, and weighs the unknowns.
   double shear_modulus = 0.0;
   double void_ratio = 0.7;               ///< at the start, of regions without their own
   TimeFunction clock{};                  ///< time [s] over the load factor, not falling

@@ -51,7 +51,7 @@ struct ConstantPermeability {
   }
   /// Permeability over viscosity [m2/(Pa s)].
   double mobility(double) const { return conductivity / water.unit_weight; }
-  /// Of the water alone [1/Pa].
+  /// That of the water alone [1/Pa].
   double storage(double void_ratio) const { return water.storage(void_ratio); }
 };
 
@@ -84,7 +84,7 @@ struct KozenyCarman {
     double const e = void_ratio;
     return grain * grain * e * e * e / (factor * (1.0 + e) * water.viscosity);
   }
-  /// Of the water alone [1/Pa].
+  /// That of the water alone [1/Pa].
   double storage(double void_ratio) const { return water.storage(void_ratio); }
 };
 

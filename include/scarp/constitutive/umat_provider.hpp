@@ -147,7 +147,7 @@ struct UmatProvider {
     return state;
   }
 
-  /// Of a point that is there.
+  /// The state of a point that is there.
   State empty_state(Site<Dim> const& site) const {
     State state;
     state.place.position.template head<Dim>() = site.position;

@@ -24,7 +24,7 @@ struct VariedParameters {
   static constexpr int dim = Provider::dim;
   static constexpr bool exact_tangent = has_exact_tangent<Provider>();  ///< as the provider inside
 
-  /// Of the point's own provider, which also refines it.
+  /// Made by the point's own provider, which also refines it.
   struct Plan {
     std::shared_ptr<Provider const> provider;  ///< null before the first plan
     PlanOf<Provider> own{};                    ///< of that provider

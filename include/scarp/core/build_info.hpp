@@ -19,7 +19,7 @@ struct BuildInfo {
   bool checked_containers = false;         ///< whether those of the standard library check their use (_GLIBCXX_DEBUG)
 };
 
-/// Of the source that calls: sources of one program may have different flags. For sources that link
+/// Build of the source that calls: sources of one program may have different flags. For sources that link
 /// `scarp::precompiled` see also `library_build`.
 consteval BuildInfo build_info() {
   BuildInfo info{};
@@ -65,7 +65,7 @@ consteval BuildInfo build_info() {
 }
 
 #ifdef SCARP_PRECOMPILED
-/// Of the kernels in `scarp::precompiled`; of the copy that the loader has chosen, where there are several.
+/// Build of the kernels in `scarp::precompiled`; that of the copy that the loader has chosen, where there are several.
 BuildInfo library_build();
 #endif
 

@@ -37,7 +37,7 @@ class Executor {
 
   virtual int ranks() const { return 1; }                                     ///< Number of processes.
   virtual int rank() const { return 0; }                                      ///< Number of this process, from zero.
-  virtual int threads() const { return 1; }                                   ///< Of this process.
+  virtual int threads() const { return 1; }                                   ///< Threads of this process.
   virtual bool owns(int point) const { return point % ranks() == rank(); }    ///< Whether this process has a point.
   virtual void together(std::function<void()> const& work) const { work(); }  ///< What it throws is thrown on all.
   virtual bool agree(bool flag) const { return flag; }                        ///< \return the first process' flag

@@ -32,7 +32,7 @@ consteval int version_number(std::string_view text = version) {
   return 1000 * parts[0] + parts[1];
 }
 
-/// Of one vector register of the instruction set that a source is compiled for. Where there are no such registers, or
+/// Bytes of one vector register of the instruction set that a source is compiled for. Without such registers, or with
 /// none that this header lists, compilers take a vector of 16 bytes apart.
 consteval int bytes_of_register() {
 #if defined(__AVX512F__)
@@ -65,7 +65,7 @@ consteval int bytes_of_container() { return static_cast<int>(sizeof(std::vector<
 }
 
 #ifdef SCARP_PRECOMPILED
-/// Of the headers that `scarp::precompiled` was compiled with.
+/// Version of the headers that `scarp::precompiled` was compiled with.
 int version_of_library();
 /// Bytes of a container there.
 int container_of_library();

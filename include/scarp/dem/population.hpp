@@ -104,9 +104,9 @@ class Population {
   double smallest_radius() const { return smallest_radius_; }
   /// Greatest bounding radius of a grain [m].
   double largest_radius() const { return largest_radius_; }
-  /// Of one grain [m].
+  /// Bounding radius of one grain [m].
   double bounding_radius(std::size_t grain) const { return bounding_radius_[grain]; }
-  /// Of all grains [m].
+  /// Bounding radii of all grains [m].
   std::vector<double> const& bounding_radii() const { return bounding_radius_; }
   /// Greatest change of a grain's support function per radian [m].
   double largest_eccentricity() const { return largest_eccentricity_; }

@@ -95,7 +95,7 @@ Eigen::VectorXd lift(Grid const& grid, double surface_level, int region, Buoyanc
   return forces;
 }
 
-/// Of what is attached to a mesh.
+/// Degrees of freedom of what is attached to a mesh.
 inline int extra_dofs(NoAttachment const&) { return 0; }
 template <class Attached>
 int extra_dofs(Attached const& attached) {

@@ -70,7 +70,7 @@ struct Saturated : Structure {
   RuptureTimes times{};                        ///< of throw and drainage
   std::optional<double> largest_time_error{};  ///< of the pressures in one step [Pa], see PoreWaterSettings
 
-  /// Of the ground at the start. \throws InputError for a void ratio that is not positive
+  /// What water carries of the ground at the start. \throws InputError for a void ratio that is not positive
   Buoyancy buoyancy() const {
     return {water_table, pore_water().lift(require_positive("void ratio of saturated ground", void_ratio))};
   }

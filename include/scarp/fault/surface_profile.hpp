@@ -148,7 +148,7 @@ std::vector<SurfacePoint> surface_profile(Mesh<Element> const& mesh, std::vector
   return surface_profile(mesh.nodes, facets, rest, positions);
 }
 
-/// Of ground_boundaries(mesh): the whole surface of the ground, also what lies below a footing.
+/// The whole surface of the ground by ground_boundaries(mesh), also what lies below a footing.
 template <class Element>
 std::vector<SurfacePoint> surface_profile(Mesh<Element> const& mesh, std::vector<Vector<Element::dim>> const& rest,
                                           std::vector<Vector<Element::dim>> const& positions) {

@@ -134,8 +134,8 @@ inline void make_folder(std::filesystem::path const& folder) {
 }
 
 /// Writes a whole file: either all of `content` stands under `path` afterwards, or what was there before.
-/// The content goes to a temporary name in the same folder, which then replaces the old file; a link stays, and the file
-/// that it leads to is replaced.
+/// The content goes to a temporary name in the same folder, which then replaces the old file; a link stays, and the
+/// file that it leads to is replaced.
 /// \throws FileError when the folder is missing or not writable, the disk is full, or the name is that of a folder, a
 /// device or a pipe
 inline void write_file(std::filesystem::path const& name, std::string_view content,

@@ -178,7 +178,7 @@ class CheckpointFiles {
                        before.string());
   }
 
-  /// Of all files in the folder.
+  /// Names of all files in the folder.
   std::vector<std::string> names(std::error_code& trouble) const {
     std::vector<std::string> found;
     std::filesystem::directory_iterator file(settings_.folder, trouble);
@@ -187,7 +187,7 @@ class CheckpointFiles {
     return found;
   }
 
-  /// Of the checkpoints among files, increasing.
+  /// Numbers of the checkpoints among files, increasing.
   static std::vector<int> numbers(std::vector<std::string> const& names) {
     std::vector<int> found;
     for (auto const& name : names) {

@@ -21,7 +21,7 @@ class TextLines {
   }
 
   bool done() const { return rest_.empty(); }     ///< Whether all lines were taken.
-  std::size_t number() const { return number_; }  ///< Of the line that was taken last, from 1.
+  std::size_t number() const { return number_; }  ///< Number of the line that was taken last, from 1.
 
   /// The next line, a part of the text.
   std::string_view take() {

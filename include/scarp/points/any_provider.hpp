@@ -25,7 +25,7 @@ class AnyProvider {
  public:
   static constexpr int dim = Dim;  ///< of the providers
 
-  /// Of no use until another one is assigned.
+  /// No provider: it can be used once another one is assigned.
   AnyProvider() = default;
 
   /// Holds a copy of any provider of this dimension.

@@ -142,7 +142,7 @@ class SCARP_EXPORT MaterialPoints {
   /// Other committed states for points, between load steps, by bits of the same providers; shared parts stay so.
   /// \throws InputError for other bits, and for points that are named twice, without any change
   void unpack(std::span<int const> points, std::string_view bits);
-  void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }  ///< Of one point.
+  void unpack(int point, std::string_view bits) { unpack(std::span(&point, 1), bits); }  ///< One point.
   /// Gives a point the committed state of another one, as for the children of a refined element; between load steps. In
   /// the mirror of its principal stresses if wanted: the stress stays, and one packing's accidents are not repeated.
   /// \throws InputError for other types of providers, one with means and one without, and states without mirror images

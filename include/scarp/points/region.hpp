@@ -40,7 +40,7 @@ MaterialPoints<Dim> points_of_regions(std::vector<Region<AnyProvider<Dim>>> cons
     if (named == names.end())
       reject("there is no region '{}' (the mesh has: {}): use one of these names", region.name, listed(names));
     int& number = numbers[static_cast<std::size_t>(named - names.begin())];
-    if (number >= 0) reject("region '{}' is given two providers (only one can respond): leave one out", region.name);
+    if (number >= 0) reject("region '{}' is given two materials (only one can respond): leave one out", region.name);
     number = detail::count(materials);
     materials.push_back(region.provider);
   }
@@ -48,7 +48,7 @@ MaterialPoints<Dim> points_of_regions(std::vector<Region<AnyProvider<Dim>>> cons
   for (std::size_t k = 0; k < sites.size(); ++k) {
     int const region = sites[k].region;
     if (region < 0 || region >= std::ssize(numbers) || numbers[detail::index(region)] < 0) {
-      reject("region '{}' of the mesh has no provider (point {} lies in it): add a Region of this name",
+      reject("region '{}' of the mesh has no material (point {} lies in it): add a Region of this name",
              region < 0 || region >= std::ssize(names) ? std::to_string(region) : names[detail::index(region)], k);
     }
     material_of.push_back(numbers[detail::index(region)]);

@@ -76,7 +76,7 @@ class CheckpointedRun {
     if (stage_ >= first_ && report_.verdict.acceptable()) report_ = joined(report_, action());
   }
 
-  /// Of all stages so far.
+  /// The report of all stages so far.
   RunReport const& report() const { return report_; }
 
   /// Passes an attempt on to the observers; a file that cannot be written stops the run.

@@ -83,12 +83,12 @@ class OnRootRank {
     return executor_.agree(flag);
   }
 
-  /// Of the observers; nothing on other ranks.
+  /// The state of the observers; nothing on other ranks.
   template <class Self, class Visit>
   static void members(Self& self, Visit&& visit) requires Described<Observers> {
     if (self.observers_) Observers::members(*self.observers_, visit);
   }
-  /// Of the observers, where they have something to do then.
+  /// Calls that of the observers, where they have something to do then.
   void after_loading() requires requires(Observers& observers) { observers.after_loading(); }
   {
     if (observers_) observers_->after_loading();

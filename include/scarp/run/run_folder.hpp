@@ -55,7 +55,7 @@ class RunFolder {
   }
 
   std::filesystem::path const& path() const { return settings_.folder; }  ///< As the settings name it.
-  /// Of this run; its identity and start are those of the run that is resumed.
+  /// The record of this run; its identity and start are those of the run that is resumed.
   RunRecord const& record() const { return record_; }
 
   /// From now on the folder is this run's.

@@ -30,7 +30,7 @@ struct RunRecord {
 
   bool has_finished() const { return state == "finished"; }  ///< Whether the run came to its own end.
 
-  /// Of the most a reader needs to recognise it.
+  /// What a reader needs to recognise it.
   std::string described() const {
     return fmt::format("a run of {}, started {} and {}", program, started,
                        has_finished()       ? "finished"

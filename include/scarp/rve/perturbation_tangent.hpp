@@ -36,8 +36,8 @@ struct PerturbationTangent {
     detail::validated(boundary);
   }
 
-  /// Central differences. What was reached by then is used where a packing does not come to rest, after `on_fallback` was
-  /// called.
+  /// Central differences. What was reached by then is used where a packing does not come to rest, after `on_fallback`
+  /// was called.
   template <class PackingType>
   VoigtTangent<PackingType::dim> operator()(PackingType const& packing, typename PackingType::Law const& law) const {
     auto const result = differentiate(packing, law);

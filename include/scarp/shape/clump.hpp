@@ -71,7 +71,7 @@ inline bool is_covered(std::span<ClumpMember const> discs, std::size_t i, Vector
     if (j == i) continue;
     auto const how = meeting(discs[i], discs[j]);
     if (how == Meeting::crossing && (point - discs[j].centre()).norm() < discs[j].radius) return true;
-    // Of equal discs the first is seen.
+    // The first of equal discs is seen.
     if (how == Meeting::inside && (meeting(discs[j], discs[i]) != Meeting::inside || j < i)) return true;
   }
   return false;

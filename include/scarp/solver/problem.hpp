@@ -64,7 +64,7 @@ class SCARP_EXPORT Problem {
 
   bool has_attachment() const { return attached_.part != nullptr; }  ///< Whether a body or a load is attached.
   bool has_field() const { return attached_.field != nullptr; }      ///< Whether a `FieldAttachment` is attached.
-  detail::AttachedField<Dim> const* field() const { return attached_.field.get(); }  ///< Of any type, or null.
+  detail::AttachedField<Dim> const* field() const { return attached_.field.get(); }  ///< A field of any type, or null.
   /// What is attached to the mesh. \throws InputError unless it is of this type
   template <class Part>
   Part const& attached() const {
@@ -200,7 +200,7 @@ class SCARP_EXPORT Problem {
     return parts;
   }
 
-  /// Of a body over its own loads, which reactions would hide (0 without loads).
+  /// Residual of a body over its own loads, which reactions would hide (0 without loads).
   double residual_beside(Eigen::VectorXd const& unbalanced) const {
     return residuals_.beside(unbalanced, load_now_, load_);
   }

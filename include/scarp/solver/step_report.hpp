@@ -58,7 +58,7 @@ struct [[nodiscard]] StepReport {
   double seconds = 0.0;     ///< wall time of the attempt
 
   int iterations() const { return detail::count(history); }  ///< Number of iterations, refinements not counted.
-  /// Of the last iteration; 0 before the first.
+  /// Residual of the last iteration; 0 before the first.
   double residual() const { return history.empty() ? 0.0 : history.back().residual; }
   /// Whether a stop condition ended the attempt.
   bool interrupted() const { return verdict.reason == Reason::interrupted; }

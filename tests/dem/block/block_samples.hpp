@@ -128,8 +128,8 @@ void check_steps(Sample<PackingType> const& sample, double size, int steps) {
   PackingType packing = sample.packing;
   scarp::from_block({trial.data(), sample.size}, packing);
   Tensor<dim> const stress = -scarp::detail::as_tensor<dim>(header.moment) / packing.volume();
-  // Additions in another order: round-off that colliding grains let grow. In single precision both are 2e-4 from a packing in double
-  // after 100 steps and 2e-5 after ten (400 ellipses), where they are 1e-5 and 1e-7 from each other.
+  // Additions in another order: round-off that colliding grains let grow. In single precision both are 2e-4 from a
+  // packing in double after 100 steps and 2e-5 after ten (400 ellipses), where they are 1e-5 and 1e-7 from each other.
   CHECK((stress - seen.stress).norm() <= (in_double ? 1e-12 : steps > 10 ? 1e-4 : 1e-6) * seen.stress.norm());
   CHECK(std::abs(header.contacts - seen.contacts) <= (in_double ? 0.0 : 2.0));
   CHECK(header.critical_step == samples::Approx(reference.pairs.critical_step).epsilon(in_double ? 1e-12 : 1e-5));
@@ -157,7 +157,8 @@ void check(typename PackingType::Law const& law, double size = 1e-5, int grains 
   check_steps(Sample<PackingType>(pressed<PackingType>(law, grains), law), size, steps);
 }
 
-/// A list that is made anew, of a cell that was sheared before, against that of the vector kernel. bar: of the critical step
+/// A list that is made anew, of a cell that was sheared before, against that of the vector kernel. bar: of the critical
+/// step
 template <class PackingType>
 void check_renewal(Sample<PackingType> sample, double bar, double shear = 0.0) {
   sample.packing.cell.row(0) += shear * sample.packing.cell.row(1).eval();

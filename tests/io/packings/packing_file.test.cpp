@@ -326,8 +326,8 @@ TEST_CASE("members that do not fit each other are refused") {
   CHECK(contains(complaint([](auto& packing) { packing.cell.setZero(); }), "its cell has no positive content"));
 }
 
-// A file on somebody's disk, not one that this program has just written. Where the format's version is raised, this command
-// writes the new file, and the old one stays to be refused:
+// A file on somebody's disk, not one that this program has just written. Where the format's version is raised, this
+// command writes the new file, and the old one stays to be refused:
 // SCARP_STORE=1 ctest --test-dir build -R io/packings/packing_file
 TEST_CASE("a packing that was stored is read, or refused with its version where the format has another one now") {
   auto const folder = std::filesystem::path(__FILE__).parent_path() / "../../reference/stored";

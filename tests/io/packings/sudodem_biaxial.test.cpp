@@ -44,8 +44,8 @@ std::filesystem::path reference(std::string const& name) {
   return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "reference" / "sudodem" / name;
 }
 
-/// The packing of the file at rest under the pressure, the cell rectangular. The file holds no shear forces: they grow again
-/// while the forces come into balance, and the void ratio hardly changes.
+/// The packing of the file at rest under the pressure, the cell rectangular. The file holds no shear forces: they grow
+/// again while the forces come into balance, and the void ratio hardly changes.
 Ellipses relaxed(std::string const& name, double width, double height) {
   scarp::Tensor<2> cell = scarp::Tensor<2>::Zero();
   cell.diagonal() << width, height;
@@ -105,8 +105,8 @@ void compare(std::string const& name, double width, double height, std::array<Po
 
 }  // namespace
 
-// Expected: SudoDEM2D 6666937, tests/reference/README.md. Its spins have four times the inertia and its slip takes |c| for
-// c.n, which statics does not feel at these strains. Cells are those of packing_reader.test.cpp's formula.
+// Expected: SudoDEM2D 6666937, tests/reference/README.md. Its spins have four times the inertia and its slip takes |c|
+// for c.n, which statics does not feel at these strains. Cells are those of packing_reader.test.cpp's formula.
 TEST_CASE("SudoDEM's packings give SudoDEM's curves to 3 % strain within the scatter of seeds") {
   compare("A", 0.16525763166656382, 0.1653063208111853, scatter_at_friction_010);
   compare("G", 0.16663676021512222, 0.16670996462691512, scatter_at_friction_015);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// Wrong types, each in a namespace of its own; many are sound ones of the library of which a member is hidden by a number.
-// The first error that a compiler reports of a namespace must have the words behind `first:`; g++, which goes on after a
-// failed assertion, must also say the others.
+// Wrong types, each in a namespace of its own; many are sound ones of the library of which a member is hidden by a
+// number.
+// The first error that a compiler reports of a namespace must have the words behind `first:`; g++, which goes on after
+// a failed assertion, must also say the others.
 #include "headers.hpp"
 
 using namespace scarp;

@@ -223,7 +223,7 @@ class CornerField {
   SCARP_MEMBERS_EXCEPT((of_node_, nodes_, has_field_, shapes_, trace_), grid_)
 
  private:
-  /// Of the field at a node of an element.
+  /// The field at a node of an element.
   static double value_at(ShapeValues<Corner> const& own, int node) {
     if (node < Corner::nodes) return own(node);
     if constexpr (PlacesNodes<Element>) {

@@ -32,7 +32,7 @@ class PoreFlow {
       : flows_(field.grid().regions().size(), validated(flow)),
         void_ratio_(index(field.grid().point_count()), require_positive(name_of_ratio, void_ratio)) {}
 
-  /// Of one region. \throws InputError as the constructor, and for an unknown region
+  /// Gives one region its own flow. \throws InputError as the constructor, and for an unknown region
   void set(Field const& field, std::string_view region, Flow const& flow, double void_ratio) {
     int const number = region_number(field.grid(), region);
     require_positive(name_of_ratio, void_ratio);

@@ -56,7 +56,8 @@ class Vapour {
   /// By which a corner's volume grows as its pressure falls [m3/Pa].
   double slope(int corner, double pressure) const { return pressure < lowest_(corner) ? slopes_(corner) : 0.0; }
   /// A linear step from water alone ends where vapour begins; of a motion through there its part below continues.
-  /// corners: whose pressures change by scale [Pa] times last, shape (corners), and the last entries of next, from start
+  /// corners: whose pressures change by scale [Pa] times last, shape (corners), and the last entries of next, from
+  /// start
   void limit(std::vector<int> const& corners, Values const& start, double scale, Values const& last,
              Values& next) const {
     Eigen::Index row = next.size() - last.size();

@@ -232,7 +232,7 @@ SCARP_DEFINITIONS PrincipalReturn MohrCoulombReturn::attempt(int count, std::arr
     for (std::size_t k = 0; k < planes; ++k) flow += flows[k](i) * solution[k];
     result.plastic_strain(i) = flow / twice_shear_;
     result.stress(i) -= flow + solution[planes];
-    // Of a strain the unknowns are the multipliers and the change of the mean stress itself, with the other sign.
+    // The unknowns of a strain are the multipliers and the change of the mean stress itself, with the other sign.
     for (int j = 0; j < 3; ++j) {
       double change = i == j ? 1.0 : 0.0;
       for (std::size_t k = 0; k < unknowns; ++k) change -= flows[k](i) * carried[detail::index(j)][k];

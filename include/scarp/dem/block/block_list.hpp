@@ -22,7 +22,7 @@ class BlockList {
   static constexpr int parts = Types::parts;
 
  public:
-  /// Of this work.
+  /// The list of this work.
   SCARP_HOST_DEVICE constexpr explicit BlockList(Work& work) : w_(work), b_(work.bench) {}
 
   /// The list, the order of pairs by grains, and the critical step.

@@ -226,7 +226,7 @@ class PointBatchOf final : public PointBatch<Provider::dim> {
     }
   }
 
-  /// Of a point that another process owns.
+  /// The state of a point that another process owns.
   static State no_state() {
     if constexpr (std::default_initializable<State>) {
       return {};

@@ -32,7 +32,7 @@ struct WholeResidual {
   double carried = 0.0;        ///< at free degrees of freedom in the last evaluation, squared [N2]
   double largest_scale = 0.0;  ///< of the committed states that were evaluated, squared [N2]
 
-  /// Of the degrees of freedom below `count`.
+  /// The residual of the degrees of freedom below `count`.
   static WholeResidual of(Constraints const& constraints, int count) {
     auto const below = [count](std::vector<int> dofs) {
       std::erase_if(dofs, [count](int dof) { return dof >= count; });
@@ -158,7 +158,7 @@ class SCARP_EXPORT RegionResiduals {
       return resultant(unbalanced, nodes.size()) / scale;
     }
 
-    /// Of the first so many nodes' forces: sum and couple, the latter over the region's radius.
+    /// Sum and couple of the first so many nodes' forces, the latter over the region's radius.
     double resultant(Eigen::VectorXd const& forces, std::size_t first) const {
       Vector<Dim> sum = Vector<Dim>::Zero();
       Tensor<Dim> turning = Tensor<Dim>::Zero();
@@ -167,7 +167,7 @@ class SCARP_EXPORT RegionResiduals {
         sum += force;
         turning += arms[k] * force.transpose();
       }
-      // Of a skew tensor the squared length is twice that of its vector.
+      // The squared length of a skew tensor is twice that of its vector.
       double const couple = (turning - turning.transpose()).squaredNorm() / 2.0;
       return std::sqrt(sum.squaredNorm() + couple);
     }
@@ -220,7 +220,7 @@ class ForceResiduals {
     if (has_attachment) parts.push_back({"attached", beside(unbalanced, loads, load)});
     return parts;
   }
-  /// Of attached bodies over their loads; 0 without such loads.
+  /// Residual of attached bodies over their loads; 0 without such loads.
   double beside(Eigen::VectorXd const& unbalanced, Eigen::VectorXd const& loads, double load) const {
     double free = 0.0;
     for (int const dof : whole.free_dofs) free += dof < first_ || dof >= end_ ? 0.0 : unbalanced(dof) * unbalanced(dof);

@@ -152,7 +152,7 @@ class StandingBalance {
     return problem_.attached_forces(increment)(own_) - loads_;
   }
 
-  /// Of a stiffness' part of attached bodies.
+  /// Factors of that part of a stiffness that belongs to attached bodies.
   Eigen::FullPivLU<Eigen::MatrixXd> factors(SparseMatrix const& all) const {
     Eigen::MatrixXd part(own_.size(), own_.size());
     for (int column = 0; column < count(own_); ++column)
