@@ -160,13 +160,21 @@ extern "C" [[gnu::visibility("default")]] int lanes() {
   return response.verdict.acceptable() ? scarp::detail::bytes_of_register() : 0;
 }
 """)
-    names = []
+    names, libraries = [], []
     for level in ("x86-64", "x86-64-v3"):
         made = scratch.compile([scratch.folder / "plugin.cpp"], "-shared", "-fPIC", f"-march={level}", *include_folders(), *HIDDEN, "-lfmt")
         symbols = subprocess.run(["nm", "-DC", "--defined-only", made], capture_output=True, text=True, check=True).stdout
+        libraries.append(str(made))
         names.append({line.split(maxsplit=2)[2] for line in symbols.splitlines() if "scarp::" in line})
     if common := names[0] & names[1]:
         yield f"two plugins share {len(common)} functions of scarp, such as {sorted(common)[0]}"
+    if "avx2" not in pathlib.Path("/proc/cpuinfo").read_text():
+        return  # the second one cannot be called
+    calls = "import ctypes, sys; loaded = [ctypes.CDLL(name, ctypes.RTLD_GLOBAL) for name in sys.argv[1:]]; print(*(one.lanes() for one in loaded))"
+    for order, registers in ((libraries, "16 32"), (libraries[::-1], "32 16")):
+        said = subprocess.run([sys.executable, "-c", calls, *order], capture_output=True, text=True)
+        if said.stdout.strip() != registers:
+            yield f"two plugins in one process answer '{said.stdout.strip()}' for {registers} bytes of a register: {said.stderr}"
 
 
 def reached(header, seen):
