@@ -99,7 +99,7 @@ Outcome print_row(Choice const& choice, int cells, double length) {
 /// Whether widths and last pressures of all meshes with a length agree within a part of the first.
 bool print_specimens(Choice const& choice) {
   examples::print(stdout, "{:>6} {:>6} {:>8} {:>9} {:>9} {:>8} {:>8} {:>7} {:>9} {:>6} {:>8} {:>6} {:>8}\n", "cells",
-                  "l [m]", "end [m]", "peak kPa", "last kPa", "width", "spread", "angle", "tau", "steps", "rejected",
+                  "l [m]", "end [m]", "most kPa", "last kPa", "width", "spread", "angle", "tau", "steps", "rejected",
                   "iter", "s");
   bool good = true;
   for (double const length : choice.lengths) {

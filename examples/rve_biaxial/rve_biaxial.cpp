@@ -101,9 +101,17 @@ void require_success(std::vector<rve_biaxial::Result> const& results, Options co
         result.prepared.acceptable() ? "shearing" : "consolidation");
   }
   for (auto const& result : results) {
-    if (!std::isfinite(rve_biaxial::peak_angles(result.rows, options.smoothing).friction_angle)) {
+    auto const peak = rve_biaxial::peak_angles(result.rows, options.smoothing);
+    if (!std::isfinite(peak.friction_angle)) {
       scarp::reject("no window of {} was filled (a step strains by {}): take smaller steps", options.smoothing,
                     options.choice.strain_per_step);
+    }
+    auto const& end = result.rows[result.rows.size() - 2];
+    if (peak.friction_strain + options.smoothing / 2.0 > end.axial_strain) {
+      examples::print(stderr,
+                      "warning: seed {} at preparation friction {}: the stress ratio is largest where the test ends, "
+                      "which is no peak: shear further\n",
+                      result.seed, result.preparation_friction);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/hana/tuple.hpp>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,17 +30,17 @@ MaterialPoints<Dim> points_at(Grid<Dim> const& grid, double level, Regions const
 /// The material points of a grid. surface_level [m]: height of the ground surface, from which depths are measured;
 /// regions: a list, or a tuple of regions of different types
 /// \throws InputError for a region that the mesh does not have, one given twice, one of the mesh without material, and
-/// a surface above or below the mesh
+/// a surface at which no node lies
 template <int Dim, class Regions>
 MaterialPoints<Dim> make_points(Grid<Dim> const& grid, double surface_level, Regions const& regions,
                                 Executor const& executor) {
   constexpr int up = Dim - 1;
   auto const [low, high] = std::ranges::minmax(grid.nodes(), {}, [](auto const& node) { return node(up); });
-  double const nearly = 0.01 * (high(up) - low(up));
-  if (!(surface_level >= low(up) - nearly && surface_level <= high(up) + nearly)) {
+  auto const apart = [&](auto const& node) { return std::abs(node(up) - surface_level); };
+  if (!(apart(*std::ranges::min_element(grid.nodes(), {}, apart)) <= 0.01 * (high(up) - low(up)))) {
     reject(
-        "the ground surface is at a height of {} m (the mesh goes from {} to {} m): give the height of the ground's "
-        "upper nodes; ground above them counts as surcharge",
+        "the ground surface is at a height of {} m (no node of the mesh, which goes from {} to {} m, lies there): give "
+        "the height of the ground's upper nodes; ground above them counts as surcharge",
         surface_level, low(up), high(up));
   }
   return detail::points_at(grid, surface_level, regions, executor);
