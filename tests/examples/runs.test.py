@@ -184,6 +184,8 @@ def check_values(folder):
     refused("two sizes", [*SOIL, "--elements", "500"], folder, "excludes", "--elements")
     code, said = run(["provider_swap", "--help"], folder)
     expect(code == 0 and "--version" in said and "throw" not in said, f"provider_swap --help: ended with {code}\n{said}")
+    code, said = run([*TINY["rve_biaxial"], "--overwrite"], folder)
+    expect(code == 0 and "largest where the test ends, which is no peak" in said, f"a test that ends before its peak: ended with {code}\n{said}")
     code, said = run(["rve_biaxial", "--help"], folder)
     expect(re.search(r"--grains .*=400", said) and re.search(r"--strain .*=0\.2", said),
            f"rve_biaxial --help shows no defaults\n{said}")

@@ -220,6 +220,13 @@ def check_tables(folder):
     ratio = q / (2e5 + q / 3)
     expect(abs(float(last["wanted"]) - 3.0 * ratio / (6.0 + ratio)) < 1e-9, f"sine at the end: {last}")
     expect("a laboratory table; biaxial at 200000 Pa" in (folder / "table/calibrated.sand").read_text(), "the sand does not name its table and stress")
+    # Stiffness is free where nothing is said, and a parameter at a bound is said to be there: this sand is weaker.
+    unsaid = [one for one in command if one not in ("--free", "friction")]
+    code, said = run(*unsaid, "--table", "drained.csv", "--triaxial", "--output", "unsaid", folder=folder)
+    found = set(json.loads((folder / "unsaid/summary.json").read_text())["parameters"]) if code == 0 else code
+    expect(found == {"friction", "relative-density", "normal-stiffness"}, f"free without --free: {found}\n{said}")
+    code, said = run(*unsaid, "--free", "friction=0.5:0.6", "--table", "drained.csv", "--triaxial", "--output", "bound", folder=folder)
+    expect(code == 0 and "at the lower end of its bounds: widen them" in said, f"friction at its bound: ended with {code}\n{said}")
     # Where the path prescribes another strain the tests go on to the axial one of the table.
     code, said = run(*command, "--table", "drained.csv", "--path", "constant_mean_stress", "--output", "mean_stress", folder=folder)
     expect(code == 0, f"--path constant_mean_stress: ended with {code}\n{said}")
