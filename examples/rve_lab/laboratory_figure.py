@@ -23,10 +23,17 @@ NAMES = {"strain": {"length": 100.0, **AXIAL, "gamma_percent": 1.0},
 def read_laboratory(path):
     """Columns of a laboratory's table, parted by commas, semicolons or tabs as `rve_lab calibrate` reads it."""
     figures.require_file(path)
-    lines = [line for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip(" \t,;")]
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeError:
+        raise figures.InputError(f"'{path}' is no UTF-8 text: save it as CSV in UTF-8") from None
+    lines = [line for line in text.splitlines() if line.strip(" \t,;")]
     parted = lines.pop(0)[4] if lines and len(lines[0]) == 5 and lines[0].startswith("sep=") else None
     parted = parted or max(",;\t", key=lambda one: min((line.count(one) for line in lines[:2]), default=0))
     header, *rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=parted)] or [[]]
+    for row in (header, *rows):
+        while row and not row[-1] and (row is header or len(row) > len(header)):
+            row.pop()  # as spreadsheets leave them
     for line, row in enumerate(rows, start=2):
         if len(row) != len(header):
             raise figures.InputError(f"'{path}', row {line}, has {len(row)} cells (its header has {len(header)}): give one to each column")

@@ -107,7 +107,7 @@ def check_figures(folder):
     except ModuleNotFoundError as missing:
         return leave_out(f"figures are not drawn ({missing})")
     rows = "".join(f"{0.1 * k};{0.01 * k};{10 * k};{100 + 5 * k}\n" for k in range(5))
-    (folder / "parted.csv").write_text("axial_strain_percent;volumetric_strain_percent;q_kPa;p_kPa\n" + rows)
+    (folder / "parted.csv").write_text("axial_strain_percent;volumetric_strain_percent;q_kPa;p_kPa;\n" + rows.replace("\n", ";;\n", 2))
     stress, path, volume, _ = laboratory(folder / "table", [folder / "parted.csv"]).axes
     expect(stress.get_xlabel() == volume.get_xlabel() == "axial strain [%]", f"axes of a table's path: {stress.get_xlabel()}")
     ends = {line.get_label(): line.get_xdata()[-1] for line in stress.lines}
@@ -117,6 +117,8 @@ def check_figures(folder):
     near("q of an overlay in kPa", path.lines[1].get_ydata()[-1], 40.0, 1e-9)
     (folder / "bare.csv").write_text("q_kPa,p_kPa\n0,100\n10,105\n")
     rejected(scarp_figures.InputError, "has no column of a strain (it has: q_kPa, p_kPa)", lambda: laboratory(folder / "table", [folder / "bare.csv"]))
+    (folder / "wide.csv").write_text("axial_strain,q\n0,0\n", encoding="utf-16")
+    rejected(scarp_figures.InputError, "is no UTF-8 text", lambda: laboratory(folder / "table", [folder / "wide.csv"]))
 
 
 def check_packing(folder):
