@@ -298,7 +298,7 @@ class Deep(One):
 loaded.material("soil", Deep(2))
 with warnings.catch_warnings():
     warnings.simplefilter("error")
-    rejected(ValueError, "no provider", lambda: scarp.Analysis(scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [1, 1]))))
+    rejected(ValueError, "no material", lambda: scarp.Analysis(scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [1, 1]))))
     analysis = scarp.Analysis(loaded)
 again = pickle.loads(pickle.dumps(analysis))
 for one in (analysis, again):
@@ -307,7 +307,7 @@ expect(np.array_equal(analysis.positions, again.positions) and abs(analysis.mode
 bare = scarp.Model(scarp.box_mesh("quad4", [1.0, 1.0], [1, 1]))
 with warnings.catch_warnings(record=True) as said:
     warnings.simplefilter("always")
-    rejected(ValueError, "no provider", lambda: scarp.Analysis(bare))
+    rejected(ValueError, "no material", lambda: scarp.Analysis(bare))
     bare.material("soil", One(2))
 expect(not said, f"an analysis that was never made warns: {[str(one.message) for one in said]}")
 

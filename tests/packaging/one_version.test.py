@@ -162,7 +162,7 @@ extern "C" [[gnu::visibility("default")]] int lanes() {
 """)
     names, libraries = [], []
     for level in ("x86-64", "x86-64-v3"):
-        made = scratch.compile([scratch.folder / "plugin.cpp"], "-shared", "-fPIC", f"-march={level}", *include_folders(), *HIDDEN, "-lfmt")
+        made = scratch.compile([scratch.folder / "plugin.cpp", "-lfmt"], "-shared", "-fPIC", f"-march={level}", *include_folders(), *HIDDEN)
         symbols = subprocess.run(["nm", "-DC", "--defined-only", made], capture_output=True, text=True, check=True).stdout
         libraries.append(str(made))
         names.append({line.split(maxsplit=2)[2] for line in symbols.splitlines() if "scarp::" in line})

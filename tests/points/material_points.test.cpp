@@ -106,8 +106,8 @@ TEST_CASE("a ground surface that is not one of the mesh is refused, with both le
   };
   CHECK(refused(62.5) == samples::Naming{"surface is at a height of 62.5 m", "from 0 to 27 m"});
   CHECK(refused(-62.5) == samples::Naming{"surface is at a height of -62.5 m", "from 0 to 27 m"});
-  CHECK(refused(15.0) == samples::Naming{"above the ground surface"});  // of the soil's uppermost points
-  CHECK(refused(26.0) == samples::Naming{"surface is at a height of 26 m", "no node of the mesh"});
+  CHECK(refused(24.0) == samples::Naming{"surface is at a height of 24 m", "no node of the mesh"});
+  CHECK(refused(depth * 2.0 / 3.0) == samples::Naming{"above the ground surface"});  // the soil's uppermost points
   CHECK(refused(depth).empty());
 }
 
