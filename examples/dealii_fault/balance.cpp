@@ -219,7 +219,7 @@ bool Ground::check_block() const {
   return std::abs(settled / exact - 1.0) < agreed;
 }
 
-bool Ground::run() {
+bool Ground::run(scarp::StopSignal const& stop) {
   constexpr double smallest = 1e-6;  // [m]
   constexpr int adapted_every = 5;   // load steps
   if (options_.resume) {
@@ -229,7 +229,8 @@ bool Ground::run() {
   }
   if (options_.block) return check_block();
   double const end = options_.stop_at > 0.0 ? options_.stop_at : options_.throw_over_depth * ground_depth;
-  while (end - throw_ > smallest && increment_ > smallest) {
+  auto const wants_stop = [&] { return mpi::max(stop.wants_stop() ? 1 : 0, comm_) > 0; };  // any process
+  while (end - throw_ > smallest && increment_ > smallest && !wants_stop()) {
     int const before = iterations_;
     Verdict const verdict = step(std::min(increment_, end - throw_));
     int const took = iterations_ - before;

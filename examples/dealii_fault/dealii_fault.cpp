@@ -88,7 +88,9 @@ int main(int argc, char** argv) {
   dealii::Utilities::MPI::MPI_InitFinalize const session(argc, argv, 1);
   try {
     complete(options, own);
-    return dealii_fault::Ground(options, MPI_COMM_WORLD).run() ? 0 : 3;
+    scarp::StopSignal const stop;
+    bool const complete = dealii_fault::Ground(options, MPI_COMM_WORLD).run(stop);
+    return complete ? 0 : stop.wants_stop() ? 130 : 3;
   } catch (std::exception const& problem) {
     std::cerr << "dealii_fault: " << problem.what() << std::endl;
     MPI_Abort(MPI_COMM_WORLD, 1);

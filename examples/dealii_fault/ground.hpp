@@ -16,6 +16,7 @@
 
 #include "scarp/bvp/mean_dilatation.hpp"
 #include "scarp/element/quad4.hpp"
+#include "scarp/run/stop_signal.hpp"
 #include "scarp/solver/anderson_mixing.hpp"
 #include "scarp/solver/thread_executor.hpp"
 #include "soil.hpp"
@@ -54,7 +55,7 @@ class Ground {
   Ground(Options const& options, MPI_Comm comm);
 
   /// \return whether the run came to its end
-  bool run();
+  bool run(scarp::StopSignal const& stop);
 
  private:
   using Mesh = dealii::parallel::distributed::Triangulation<2>;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """[nightly] dealii_fault: elastic ground settles as the closed form says; two processes find what one finds, with and without means; the
 sum of forces survives a refinement, and cells that are joined again; points that are shared out anew find the same; a saved run goes on with
-two processes; a killed process loses nothing that was saved; a folder without a run and a damaged one are refused.
+two processes; a killed process loses nothing that was saved, and a signal saves and ends a run; a folder without a run and a damaged one are refused.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without; it is not built where there is no deal.II)."""
 import os
 import pathlib
@@ -51,6 +51,17 @@ def killed_after_save(*options):
     expect(launcher.wait(60) != 0, "a run with a killed process ended well")
 
 
+def signalled(*options):
+    """Sends a batch system's signal to a run that has been saved once."""
+    process = subprocess.Popen(command(*options, "--checkpoint", "signalled", "--checkpoint-every", "0", ranks=1), cwd=scratch, env=environment,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    end = time.monotonic() + 60.0
+    while not pathlib.Path(scratch, "signalled", "run").exists() and process.poll() is None and time.monotonic() < end:
+        time.sleep(0.02)
+    process.send_signal(signal.SIGUSR1)
+    return process.wait(60)
+
+
 def imbalance(text):
     """-> DEM steps of the busier of two processes over their mean."""
     return found(text, r"least [\d.e+]+, most")[0] / found(text, "evaluations,")[0] * 2.0
@@ -95,6 +106,10 @@ with tempfile.TemporaryDirectory() as scratch:
     resumed = run(*shared, "--checkpoint", "killed", "--resume")
     expect(found(resumed, "resumed at")[0] > 0.0, "a killed run begins anew")
     expect_near(found(resumed, "x50"), found(kept, "x50"), 1e-2, "x50 of a run that was killed and of one that was not")
+    code = signalled(*shared)
+    expect(code == 130, f"a run that gets SIGUSR1 ended with {code}")
+    resumed = run(*shared, "--checkpoint", "signalled", "--resume")
+    expect_near(found(resumed, "x50"), found(kept, "x50"), 1e-2, "x50 of a run that a signal ended and of one that ran on")
     for file in sorted(folder.iterdir()):
         whole = file.read_bytes()
         for damaged in (whole[: len(whole) // 2], whole[: len(whole) // 2] + bytes([whole[len(whole) // 2] ^ 1]) + whole[len(whole) // 2 + 1:]):
