@@ -25,7 +25,7 @@ using Material = std::variant<scarp::AnyProvider<2>, scarp::AnyProvider<3>>;
 /// sand: a file of such options, of which those beside it count first; or file: a packing that rve_lab prepared, with
 /// the .sand of its name. Also strain-per-step and unbalanced-tolerance of responses.
 /// folder: where a relative `sand` or `file` begins
-/// \throws InputError for a key that is unknown or given twice, a value that is none, and parameters that no material
+/// \throws InputError for a key that is unknown or given twice, text that is no value, and parameters that no material
 /// can have
 Material material_of(std::string_view text, std::filesystem::path const& folder = {});
 

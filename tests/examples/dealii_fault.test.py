@@ -38,14 +38,20 @@ def found(text, what):
     return [float(value) for value in re.findall(f"{what} {NUMBER}", text)]
 
 
+def saved_once(folder, *options, ranks):
+    """-> a run that goes on after it was saved into a folder for the first time."""
+    process = subprocess.Popen(command(*options, "--checkpoint", folder, "--checkpoint-every", "0", ranks=ranks), cwd=scratch, env=environment,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    end = time.monotonic() + 60.0
+    while not pathlib.Path(scratch, folder, "run").exists() and process.poll() is None and time.monotonic() < end:
+        time.sleep(0.02)
+    expect(process.poll() is None, f"the run that is to be {folder} ended by itself")
+    return process
+
+
 def killed_after_save(*options):
     """Kills one of two processes as soon as the run is saved for the first time."""
-    launcher = subprocess.Popen(command(*options, "--checkpoint", "killed", "--checkpoint-every", "0", ranks=2), cwd=scratch, env=environment,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    end = time.monotonic() + 60.0
-    while not pathlib.Path(scratch, "killed", "run").exists() and launcher.poll() is None and time.monotonic() < end:
-        time.sleep(0.02)
-    expect(launcher.poll() is None, "the run that is to be killed ended by itself")
+    launcher = saved_once("killed", *options, ranks=2)
     processes = pathlib.Path(f"/proc/{launcher.pid}/task/{launcher.pid}/children").read_text().split()
     os.kill(int(processes[-1]), signal.SIGKILL)
     expect(launcher.wait(60) != 0, "a run with a killed process ended well")
@@ -53,11 +59,7 @@ def killed_after_save(*options):
 
 def signalled(*options):
     """Sends a batch system's signal to a run that has been saved once."""
-    process = subprocess.Popen(command(*options, "--checkpoint", "signalled", "--checkpoint-every", "0", ranks=1), cwd=scratch, env=environment,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    end = time.monotonic() + 60.0
-    while not pathlib.Path(scratch, "signalled", "run").exists() and process.poll() is None and time.monotonic() < end:
-        time.sleep(0.02)
+    process = saved_once("signalled", *options, ranks=1)
     process.send_signal(signal.SIGUSR1)
     return process.wait(60)
 

@@ -192,9 +192,6 @@ bool repeats_study(Choice const& choice);
 /// \throws scarp::InputError for grains that the scenes are not built for
 examples::Sand sand_of(Choice const& choice);
 
-/// All sands of the ground from the surface down, with the choice's grains and seed.
-std::vector<Layer> layers_of(Choice const& choice);
-
 /// DEM steps of scenes with a length: fewer than the reference study's scene has, with the same places
 /// (docs/notes/performance.md).
 inline void set_few_dem_steps(Choice& choice) {

@@ -58,6 +58,17 @@ void require_angles_in_order(Choice const& choice, double residual_friction_angl
 
 std::size_t images_of(Choice const& choice) { return choice.mirrored_packings ? 2 : 1; }
 
+/// All sands of the ground from the surface down, with the choice's grains and seed.
+std::vector<Layer> layers_of(Choice const& choice) {
+  std::vector<Layer> layers{{0.0, sand_of(choice)}};
+  for (auto layer : choice.layers) {
+    layer.sand.grains = choice.grains;
+    layer.sand.seed = choice.seed;
+    layers.push_back(std::move(layer));
+  }
+  return layers;
+}
+
 /// No more than what points draw, at the same time where threads are requested.
 Columns make_columns(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
   auto const layers = layers_of(choice);
@@ -134,16 +145,6 @@ examples::Sand sand_of(Choice const& choice) {
   sand.friction = choice.grain_friction;
   with_packing(examples::Built<Grains>{}, sand, [](auto, auto const&) {});
   return sand;
-}
-
-std::vector<Layer> layers_of(Choice const& choice) {
-  std::vector<Layer> layers{{0.0, sand_of(choice)}};
-  for (auto layer : choice.layers) {
-    layer.sand.grains = choice.grains;
-    layer.sand.seed = choice.seed;
-    layers.push_back(std::move(layer));
-  }
-  return layers;
 }
 
 std::vector<std::vector<double>> drawn_depths(Choice const& choice, std::vector<scarp::Site<2>> const& sites) {
