@@ -18,6 +18,8 @@
 #include "scarp/tensor/tensor.hpp"
 
 SCARP_NAMED_MEMBER(add_stick_stiffness)
+SCARP_NAMED_MEMBER(length)
+SCARP_NAMED_MEMBER(thickness)
 
 namespace scarp {
 
@@ -105,6 +107,12 @@ void visit_attached(Visit& visit, Part& part) {
 /// \tparam Kind `AttachedPart` or `AttachedField`
 template <class Kind, class Part>
 class AttachedAs : public Kind {
+  static constexpr bool has_thickness = requires(Part const& part) {
+    { part.thickness() } -> std::convertible_to<std::optional<double>>;
+  };
+  static_assert(has_thickness || !names_thickness<Part>,
+                "scarp: thickness of what is attached is never called: it needs `double thickness() const`");
+
  public:
   using typename Kind::Nodes, typename Kind::Entries;
 
@@ -118,7 +126,7 @@ class AttachedAs : public Kind {
   void add_stiffness(Entries& entries) const final { part_.add_stiffness(entries); }
   void commit(Nodes const& nodes, Eigen::VectorXd const& increment) final { part_.commit(nodes, increment); }
   std::optional<double> thickness() const final {
-    if constexpr (requires { part_.thickness(); }) return part_.thickness();
+    if constexpr (has_thickness) return part_.thickness();
     return std::nullopt;
   }
   void write(StateWriter& writer) const final { visit_attached(writer, part_); }
@@ -132,11 +140,17 @@ template <int Dim, class Part>
 class AttachedPartOf final : public AttachedAs<AttachedPart<Dim>, Part> {
   static_assert(Attachment<Part, Dim>,
                 "scarp: what is attached needs extra_dofs(), add_forces(), add_stiffness() and commit()");
-  static_assert(
-      requires(Part const& part, std::vector<Eigen::Triplet<double>>& entries) { part.add_stick_stiffness(entries); } ||
-          !names_add_stick_stiffness<Part>,
-      "scarp: add_stick_stiffness of what is attached is never called: it needs "
-      "`void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const`");
+  static constexpr bool has_stick_stiffness = requires(Part const& part, std::vector<Eigen::Triplet<double>>& entries) {
+    part.add_stick_stiffness(entries);
+  };
+  static_assert(has_stick_stiffness || !names_add_stick_stiffness<Part>,
+                "scarp: add_stick_stiffness of what is attached is never called: it needs "
+                "`void add_stick_stiffness(std::vector<Eigen::Triplet<double>>& entries) const`");
+  static constexpr bool has_length = requires(Part const& part) {
+    { part.length() } -> std::convertible_to<std::optional<double>>;
+  };
+  static_assert(has_length || !names_length<Part>,
+                "scarp: length of what is attached is never called: it needs `double length() const`");
   using Base = AttachedAs<AttachedPart<Dim>, Part>;
   using Base::part_;
 
@@ -144,14 +158,14 @@ class AttachedPartOf final : public AttachedAs<AttachedPart<Dim>, Part> {
   using Base::Base;
 
   void add_stick_stiffness(typename Base::Entries& entries) const override {
-    if constexpr (requires { part_.add_stick_stiffness(entries); }) {
+    if constexpr (has_stick_stiffness) {
       part_.add_stick_stiffness(entries);
     } else {
       part_.add_stiffness(entries);
     }
   }
   std::optional<double> length() const override {
-    if constexpr (requires { part_.length(); }) return part_.length();
+    if constexpr (has_length) return part_.length();
     return std::nullopt;
   }
 };

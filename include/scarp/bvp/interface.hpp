@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "scarp/bvp/attachment.hpp"
@@ -80,11 +81,15 @@ class Interface {
   Body const& body() const { return body_; }  ///< the body that stands on the ground, in its committed place
   int extra_dofs() const { return body_.extra_dofs(); }
   /// Out of the plane, where the body has one [m].
-  double thickness() const requires requires(Body const& body) { body.thickness(); }
-  { return body_.thickness(); }
+  std::optional<double> thickness() const {
+    if constexpr (requires { body_.thickness(); }) return body_.thickness();
+    return std::nullopt;
+  }
   /// Length of the body, where it has one [m].
-  double length() const requires requires(Body const& body) { body.length(); }
-  { return body_.length(); }
+  std::optional<double> length() const {
+    if constexpr (requires { body_.length(); }) return body_.length();
+    return std::nullopt;
+  }
 
   Verdict add_forces(std::vector<Vector<2>> const& nodes, Eigen::VectorXd const& increment, Eigen::VectorXd& forces) {
     auto moved = nodes;

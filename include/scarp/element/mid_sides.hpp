@@ -6,7 +6,11 @@
 #include <cstddef>
 
 #include "scarp/core/index.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/element/reference_element.hpp"
+
+SCARP_NAMED_MEMBER(mid_sides)
+SCARP_NAMED_MEMBER(node_places)
 
 namespace scarp {
 
@@ -35,6 +39,9 @@ namespace detail {
 
 template <class Element>
 struct CornerElement {
+  static_assert(!names_mid_sides<Element> && !names_node_places<Element>,
+                "scarp: mid_sides() and node_places() of an element are never called: an element with more nodes than "
+                "corners needs `using Linear = ...` with its reference shape, and one of them for all its nodes");
   using Type = Element;
 };
 template <class Element>

@@ -9,6 +9,7 @@
 #include "scarp/constitutive/buoyancy.hpp"
 #include "scarp/constitutive/constitutive_provider.hpp"
 #include "scarp/core/error.hpp"
+#include "scarp/core/named_member.hpp"
 #include "scarp/core/precompiled.hpp"
 #include "scarp/element/tri3.hpp"
 #include "scarp/fault/dip_slip_faults.hpp"
@@ -20,6 +21,10 @@
 #ifdef SCARP_PRECOMPILED
 #include "scarp/fault/fault_mesh.hpp"
 #endif
+
+SCARP_NAMED_MEMBER(buoyancy)
+SCARP_NAMED_MEMBER(end)
+SCARP_NAMED_MEMBER(field)
 
 namespace scarp::detail {
 
@@ -70,6 +75,9 @@ auto field_of(Structure const& structure, Grid const& grid, double throw_to) {
   if constexpr (requires { structure.field(grid, throw_to); }) {
     return structure.field(grid, throw_to);
   } else {
+    static_assert(!names_field<Structure>,
+                  "scarp: field of a structure is never called: it needs "
+                  "`auto field(Grid const& grid, double throw_to) const` of the scene's grid");
     return NoAttachment{};
   }
 }
@@ -77,8 +85,13 @@ auto field_of(Structure const& structure, Grid const& grid, double throw_to) {
 /// What water carries of the ground below a structure.
 template <class Structure>
 Buoyancy buoyancy_of(Structure const& structure) {
-  if constexpr (requires { structure.buoyancy(); }) return structure.buoyancy();
-  return {};
+  if constexpr (requires { structure.buoyancy(); }) {
+    return structure.buoyancy();
+  } else {
+    static_assert(!names_buoyancy<Structure>,
+                  "scarp: buoyancy of a structure is never called: it needs `Buoyancy buoyancy() const`");
+    return {};
+  }
 }
 
 /// Forces [N] of the water that carries a region of the ground, shape (dof_count): those of the vertical stress that it
@@ -192,8 +205,13 @@ struct SCARP_EXPORT FaultScene {
   }
   /// Load factor at the end of all stages.
   double end() const {
-    if constexpr (requires { structure.end(throw_to); }) return structure.end(throw_to);
-    return throw_to;
+    if constexpr (requires { structure.end(throw_to); }) {
+      return structure.end(throw_to);
+    } else {
+      static_assert(!detail::names_end<Structure>,
+                    "scarp: end of a structure is never called: it needs `double end(double throw_to) const`");
+      return throw_to;
+    }
   }
 
  private:

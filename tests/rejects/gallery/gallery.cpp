@@ -374,13 +374,40 @@ struct Wrong : FollowingPressure<> {
 auto const size = sizeof(detail::AttachedFieldOf<2, Wrong>);
 }  // namespace case_options_of_field
 
-// first: add_stick_stiffness of what is attached is never called
-namespace case_option_of_attachment {
+// first: thickness of what is attached is never called
+// also: add_stick_stiffness of what is attached is never called
+// also: length of what is attached is never called
+namespace case_options_of_attachment {
 struct Wrong : FollowingPressure<> {
+  double thickness(int) const { return 1.0; }
   void add_stick_stiffness(Eigen::SparseMatrix<double>&) const {}
+  static constexpr bool length = true;
 };
 auto const size = sizeof(detail::AttachedPartOf<2, Wrong>);
-}  // namespace case_option_of_attachment
+}  // namespace case_options_of_attachment
+
+// first: field of a structure is never called
+// also: buoyancy of a structure is never called
+// also: end of a structure is never called
+namespace case_options_of_structure {
+struct Wrong : NoStructure {
+  void field(double) const {}
+  double buoyancy(double) const { return 0.0; }
+  double end() const { return 1.0; }
+};
+using Scene = FaultScene<Elastic, Wrong>;
+auto field(Scene const& scene, Scene::Grid const& grid) { return detail::field_of(scene.structure, grid, 1.0); }
+auto buoyancy(Scene const& scene) { return detail::buoyancy_of(scene.structure); }
+auto end(Scene const& scene) { return scene.end(); }
+}  // namespace case_options_of_structure
+
+// first: mid_sides() and node_places() of an element are never called
+namespace case_options_of_element {
+struct Wrong : Quad4 {
+  static constexpr int mid_sides = 4;
+};
+using Linear = LinearOf<Wrong>;
+}  // namespace case_options_of_element
 
 // first: ended of an observer is never called
 namespace case_option_of_observer {
