@@ -34,10 +34,13 @@ Rve rve(Ellipses const& packing) { return {.law = samples::study_law(), .source 
 Rve rve(Size size) { return rve(samples::consolidated<Ellipses>(size == Size::quick ? 40 : 200).packing); }
 
 double mean_pressure(VoigtStress<2> const& stress) { return -0.5 * (stress(0) + stress(1)); }
-double deviator(VoigtStress<2> const& stress) { return std::hypot(0.5 * (stress(0) - stress(1)), stress(2)); }
+double max_shear(VoigtStress<2> const& stress) { return std::hypot(0.5 * (stress(0) - stress(1)), stress(2)); }
+
+/// Of the mobilised friction angle.
+double sine(VoigtStress<2> const& stress) { return max_shear(stress) / mean_pressure(stress); }
 
 /// Largest principal stress [Pa], positive where it pulls.
-double pull(VoigtStress<2> const& stress) { return deviator(stress) - mean_pressure(stress); }
+double pull(VoigtStress<2> const& stress) { return max_shear(stress) - mean_pressure(stress); }
 
 /// Responses to increments one after the other. One that is not balanced is evaluated again with twice the steps, as a
 /// solver does, up to the provider's most steps; then it is taken as it is and counted.
@@ -161,12 +164,12 @@ Outcome barely_confined(double pressure, Size size) {
 Outcome sheared_far(double strain, Size size) {
   Path path(rve(size));
   int const increments = static_cast<int>(std::lround(strain / 0.005));
-  Outcome outcome{.measure = "largest stress ratio q/p"};
+  Outcome outcome{.measure = "largest sine of the mobilised friction angle"};
   Rve::State half_way;
   for (int k = 0; k < increments; ++k) {
     if (k == increments / 2) half_way = path.state;
     if (!path.go(simple_shear(0.005))) return {.measure = "nothing", .remark = words(path.verdict)};
-    outcome.worst = scarp::nan_max(outcome.worst, deviator(path.state.stress) / mean_pressure(path.state.stress));
+    outcome.worst = scarp::nan_max(outcome.worst, sine(path.state.stress));
   }
   Path again(path.provider);
   again.state = half_way;
@@ -187,7 +190,7 @@ Outcome leap(double strain, double within, Size size) {
   gradient(1, 1) = 1.0 / (1.0 + strain) - 1.0;
   Path at_once(rve(size));
   bool const acceptable = at_once.go(gradient);
-  Outcome outcome{.measure = "difference of the stress ratio q/p from that of 50 increments",
+  Outcome outcome{.measure = "difference of the sine of the friction angle from that of 50 increments",
                   .remark = words(at_once.verdict)};
   if (!acceptable) return outcome;
   Path slowly(rve(size));
@@ -198,8 +201,7 @@ Outcome leap(double strain, double within, Size size) {
   for (int k = 0; k < 50; ++k) {
     if (!slowly.go(small)) return {.measure = "nothing", .remark = words(slowly.verdict)};
   }
-  auto const ratio = [](Path const& path) { return deviator(path.state.stress) / mean_pressure(path.state.stress); };
-  outcome.worst = std::abs(ratio(at_once) - ratio(slowly));
+  outcome.worst = std::abs(sine(at_once.state.stress) - sine(slowly.state.stress));
   // A response that is not balanced makes the solver cut the step: that is a result too.
   outcome.as_expected = !at_once.verdict.acceptable() || outcome.worst <= within;
   return outcome;
@@ -244,7 +246,7 @@ Cases rve_cases() {
   }
   for (double const strain : {0.25, 0.5, 1.0}) {
     add(fmt::format("simple shear of {} %", 100.0 * strain),
-        "a sand's stress ratio; the same bits when taken up half-way",
+        "a sand's friction angle; the same bits when taken up half-way",
         [strain](Size size) { return sheared_far(strain, size); });
   }
   for (double const strain : {0.01, 0.05, 0.2}) {

@@ -115,4 +115,4 @@ def write(folder, sets, level):
     if {"heavy", "light"} <= runs:
         saved(footings(sets, level), folder / "study_footings.png")
     if runs == COLOURS.keys():
-        saved(over_strain(sets, [("q", "q [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "study_stress.png")
+        saved(over_strain(sets, [("q", "(s1 - s3)/2 [kPa]", 1e-3), ("eps_v", "volumetric strain [%]", 100.0)]), folder / "study_stress.png")

@@ -59,7 +59,7 @@ def around(of_run, point):
 
 
 def history(of_run, cells):
-    """{quantity: array of (frames, cells)}: p, q [Pa], the others as they are; strains since the fault began to move.
+    """{quantity: array of (frames, cells)}: p and the reference study's q, (s1 - s3)/2, [Pa], the others as they are; strains since the fault began to move.
 
     The deviatoric strain is the elements' own, the volume (negative: dilation) that of the packings, whose strain is the mean over the length.
     """

@@ -235,7 +235,7 @@ void bind(py::module_& module, char const* material_name, char const* points_nam
           "DEM steps of each point's last response.")
       .def(
           "quantities", [](All& self, int point) { return quantities(self.now(), point); }, py::arg("point"),
-          "Named numbers of a committed state; p and q [Pa].")
+          "Named numbers of a committed state; p and q [Pa], mean and largest difference of the principal stresses.")
       .def(
           "copy",
           [](All& self, int to, All& source, int point, bool mirrored) {

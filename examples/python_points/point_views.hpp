@@ -1,33 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "keywords.hpp"
 #include "scarp/dem/packing_picture.hpp"
 #include "scarp/points/material_points.hpp"
-#include "scarp/tensor/geo.hpp"
+#include "scarp/tensor/principal.hpp"
 
 namespace python_points {
 
 inline constexpr auto number_size = static_cast<py::ssize_t>(sizeof(double));
 
-/// Named numbers of a committed state, and p and q [Pa].
+/// Named numbers of a committed state, and p and q [Pa], mean and largest difference of the principal stresses.
 template <int Dim>
 py::dict quantities(scarp::MaterialPoints<Dim> const& points, int point) {
   py::dict named;
   for (auto const& [name, value] : points.quantities(point)) named[py::str(std::string(name))] = value;
-  auto const stress = points.committed_stress(point);
-  if constexpr (Dim == 2) {
-    auto const [p, q] = scarp::geo::plane_stress(stress);
-    named["p"] = p, named["q"] = q;
-  } else {
-    auto const tensor = scarp::from_voigt_stress<3>(stress);
-    double const p = -tensor.trace() / 3.0;
-    named["p"] = p, named["q"] = std::sqrt(1.5) * (tensor + p * scarp::Tensor<3>::Identity()).norm();
-  }
+  auto const principal =
+      scarp::principal_values<Dim>(scarp::from_voigt_stress<Dim, double>(points.committed_stress(point)));
+  named["p"] = 0.0 - principal.mean();
+  named["q"] = principal(0) - principal(Dim - 1);
   return named;
 }
 

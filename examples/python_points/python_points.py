@@ -82,9 +82,9 @@ def different_points(sand, count):
 
 
 def quotient(stresses):
-    """q/p of the stresses, with half the difference of the principal stresses as q."""
-    half = (stresses[:, 0] - stresses[:, 1]) / 2.0
-    return np.hypot(half, stresses[:, 2]) / -(stresses[:, 0] + stresses[:, 1]) * 2.0
+    """q/p of the stresses."""
+    q = np.hypot(stresses[:, 0] - stresses[:, 1], 2.0 * stresses[:, 2])
+    return q / -(stresses[:, 0] + stresses[:, 1]) * 2.0
 
 
 def in_cpp(path, start, folder):
@@ -120,12 +120,10 @@ def draw(rows, picture, file, lab):
 
 
 def numbers(path):
-    """Of rve_lab, whose q is the difference of the principal stresses and whose strain is the axial one."""
+    """Of rve_lab, whose strain is the axial one."""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
-    table = {name: np.array([float(row[name]) for row in rows]) for name in ("strain", "mean_p", "mean_q", "volumetric_strain")}
-    table["mean_q"] /= 2.0
-    return table
+    return {name: np.array([float(row[name]) for row in rows]) for name in ("strain", "mean_p", "mean_q", "volumetric_strain")}
 
 
 def main():

@@ -21,19 +21,19 @@ constexpr double round_off = 1e-14;
 
 }  // namespace
 
-TEST_CASE("pressure and shear stress of the plane have their closed forms") {
-  // Analytic: p = -(sxx + syy)/2; q = half the difference of the principal stresses = hypot((sxx - syy)/2, sxy).
+TEST_CASE("mean and deviatoric stress of the plane have their closed forms") {
+  // Analytic: p = -(sxx + syy)/2; q = difference of the principal stresses = hypot(sxx - syy, 2 sxy).
   auto const general = scarp::geo::plane_stress({-100.0, -40.0, 40.0});
   CHECK(general.p == 70.0);
-  CHECK(general.q == samples::Approx(50.0).epsilon(round_off));
+  CHECK(general.q == samples::Approx(100.0).epsilon(round_off));
   auto const isotropic = scarp::geo::plane_stress({-3.0, -3.0, 0.0});
   CHECK(isotropic.p == 3.0);
   CHECK(isotropic.q == 0.0);
   auto const biaxial = scarp::geo::plane_stress({-200e3, -640e3, 0.0});
-  CHECK(biaxial.q == 220e3);
+  CHECK(biaxial.q == 440e3);
 }
 
-TEST_CASE("pressure and shear stress do not depend on the axes") {
+TEST_CASE("mean and deviatoric stress do not depend on the axes") {
   scarp::VoigtStress<2> const stress(-120.0, -30.0, 25.0);
   auto const seen = scarp::geo::plane_stress(stress);
   for (double angle = 0.1; angle < std::numbers::pi; angle += 0.3) {

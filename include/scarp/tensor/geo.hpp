@@ -9,7 +9,7 @@
 namespace scarp::geo {
 
 /// Views for output in the plane, compression positive (p, eps_v) or unsigned (q, eps_q).
-/// \f$ p = -\sigma_{ii}/2,\; q = \sqrt{s_{ij}s_{ij}/2} \f$ (half the difference of the principal stresses).
+/// \f$ p = -\sigma_{ii}/2,\; q = \sqrt{2 s_{ij}s_{ij}} \f$: the difference of the principal stresses.
 struct PlaneStress {
   double p;  ///< [Pa]
   double q;  ///< [Pa]
@@ -17,8 +17,7 @@ struct PlaneStress {
 
 /// Views of a Cauchy stress [Pa], tension positive: p is its mean in the plane, compression positive.
 inline PlaneStress plane_stress(VoigtStress<2> const& stress) {
-  double const half_difference = (stress(0) - stress(1)) / 2.0;
-  return {-(stress(0) + stress(1)) / 2.0, std::hypot(half_difference, stress(2))};
+  return {-(stress(0) + stress(1)) / 2.0, std::hypot(stress(0) - stress(1), 2.0 * stress(2))};
 }
 
 /// Measures of the logarithmic strain,
