@@ -147,13 +147,13 @@ def rows():
     for strain, said in ((0.04, "0.6"), (0.14, "0.6, then rising")):
         yield f"A, free: F_c at eps_q {100 * strain:.0f} %", said, 2, lambda one, strain=strain: one.at("free", "A", at_strain("contact_fabric", strain))
     yield "A, free: F_p at the end", "0.32", 2, lambda one: one.at("free", "A", last("particle_fabric"))
-    yield "A, free: largest q [kPa]", "", 0, lambda one: 1e-3 * one.at("free", "A", peak("q"))
+    yield "A, free: largest (s1 - s3)/2 [kPa]", "", 0, lambda one: 1e-3 * one.at("free", "A", peak("q"))
     yield "A, free: q at the end over the largest", "about 0 near eps_q 20 %", 2, lambda one: one.at("free", "A", lambda series: series["q"][-1] / series["q"].max())
     yield "A, free: eps_q at the end [%]", "beyond 20", 0, lambda one: 100 * one.at("free", "A", last("eps_q"))
     yield "A, free: eps_v at the end [%]", "beyond -6", 1, lambda one: 100 * one.at("free", "A", last("eps_v"))
     yield "B, free: eps_q at the end [%]", "below 9", 0, lambda one: 100 * one.at("free", "B", last("eps_q"))
     for case, strength in (("light", "30"), ("heavy", "42")):
-        yield f"A, {case}: largest q [kPa]", strength, 0, lambda one, case=case: 1e-3 * one.at(case, "A", peak("q"))
+        yield f"A, {case}: largest (s1 - s3)/2 [kPa]", strength, 0, lambda one, case=case: 1e-3 * one.at(case, "A", peak("q"))
         yield f"A, {case}: q at the end over the largest", "unloads", 2, lambda one, case=case: one.at(case, "A", lambda series: series["q"][-1] / series["q"].max())
         yield f"A, {case}: eps_q at the end [%]", "small", 0, lambda one, case=case: 100 * one.at(case, "A", last("eps_q"))
         yield f"A, {case}: eps_v at the end [%]", "within 0.12", 1, lambda one, case=case: 100 * one.at(case, "A", last("eps_v"))

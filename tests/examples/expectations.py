@@ -3,10 +3,13 @@
 
 import os
 import pathlib
+import signal
 import sys
 
 NIGHTLY = os.environ.get("SCARP_TESTS") == "nightly"  # what takes long then runs too
 SLOWER = 10 if "ASAN_OPTIONS" in os.environ else 1  # than without a sanitizer: factor of limits of time
+# Programs of a script that a shell runs in the background would ignore Ctrl-C as it does.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 troubles = []
 checks = 0
 

@@ -4,6 +4,7 @@ ground: exactly where no means are taken, and within the budget where they are.
 Environment: SCARP_EXAMPLES, the folder of the built programs (skipped, exit 77, without)."""
 import csv
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -20,6 +21,8 @@ with tempfile.TemporaryDirectory() as scratch:
         expect(done.returncode == 0, f"length {length}: ended with {done.returncode}: {done.stderr[-500:]}")
         with open(pathlib.Path(scratch, length, "probe_A.csv")) as file:
             rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+        apart = max(abs(row["q"] - math.hypot(row["sxx"] - row["syy"], 2.0 * row["sxy"])) / row["q"] for row in rows)
+        expect(apart < 1e-12, f"length {length}: q is not the difference of the principal stresses, by {apart}")
         grown = (1.0 + rows[-1]["void_ratio"]) / (1.0 + rows[0]["void_ratio"]) - 1.0
         expect(grown > 0.005, f"length {length}: the packing at probe A has hardly dilated, by {grown}")
         # Steps of up to 2 % strain each: their products, and turns between them, are what the two may differ by.

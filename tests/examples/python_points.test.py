@@ -40,6 +40,10 @@ for dim in (2, 3):
     kept = stresses.copy()
     points.respond(gradients(3, 2.0 * small, dim))
     expect(np.array_equal(kept, stresses), "a later response changed earlier stresses")
+    points.respond(gradients(3, small, dim))
+    points.commit()
+    state = points.quantities(1)
+    expect(np.allclose([state["p"], state["q"]], [-(dim + 2.0) / dim * lame * small, 2.0 * lame * small], rtol=2 * small, atol=0.0), f"p and q of {expected}: {state}")
 
 points = scarp.MaterialPoints(scarp.linear_elastic(young=1e7, poisson=0.25), np.zeros((3, 2)))
 good = gradients(3, small)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Eigen's sparse LU alone: what compile times are measured in.
+// Eigen's sparse LU alone: what the needs of programs are measured in.
 #include <Eigen/SparseLU>
 
 int main() {

@@ -270,7 +270,7 @@ class Analysis:
         return self._analysis.volumes()
 
     def quantities(self, point: int) -> Dict[str, float]:
-        """Named numbers of a point: p and q [Pa], and those of its material."""
+        """Named numbers of a point: p and q [Pa], mean and largest difference of the principal stresses, and those of its material."""
         return self._analysis.quantities(point)
 
     def picture(self, point: int) -> Any:

@@ -110,8 +110,10 @@ class AttachedAs : public Kind {
   static constexpr bool has_thickness = requires(Part const& part) {
     { part.thickness() } -> std::convertible_to<std::optional<double>>;
   };
-  static_assert(has_thickness || !names_thickness<Part>,
-                "scarp: thickness of what is attached is never called: it needs `double thickness() const`");
+  static_assert(
+      has_thickness || !names_thickness<Part>,
+      "scarp: thickness of what is attached is never called: it needs `double thickness() const` [m], out of the "
+      "plane; give what is something else another name");
 
  public:
   using typename Kind::Nodes, typename Kind::Entries;
@@ -149,8 +151,10 @@ class AttachedPartOf final : public AttachedAs<AttachedPart<Dim>, Part> {
   static constexpr bool has_length = requires(Part const& part) {
     { part.length() } -> std::convertible_to<std::optional<double>>;
   };
-  static_assert(has_length || !names_length<Part>,
-                "scarp: length of what is attached is never called: it needs `double length() const`");
+  static_assert(
+      has_length || !names_length<Part>,
+      "scarp: length of what is attached is never called: it needs `double length() const` [m], of a body with "
+      "degrees of freedom; give what is something else another name");
   using Base = AttachedAs<AttachedPart<Dim>, Part>;
   using Base::part_;
 

@@ -9,6 +9,9 @@
 #include "scarp/bvp/rigid_body.hpp"
 #include "scarp/contact/contact_law.hpp"
 #include "scarp/core/described.hpp"
+#include "scarp/core/named_member.hpp"
+
+SCARP_NAMED_MEMBER(first_dof)
 
 namespace scarp {
 
@@ -47,6 +50,21 @@ class Interface {
   static_assert(
       !Law::inputs.moment && !Law::inputs.radius && !Law::inputs.motion && Law::inputs.species == 0,
       "an interface has neither rolling nor radii nor dashpots nor species: use a law of springs and sliders");
+  static constexpr bool has_first_dof = requires(Body const& body) {
+    { body.first_dof() } -> std::same_as<int>;
+  };
+  static_assert(has_first_dof || !detail::names_first_dof<Body>,
+                "scarp: first_dof of a body is never called: it needs `int first_dof() const`");
+  static constexpr bool has_thickness = requires(Body const& body) {
+    { body.thickness() } -> std::convertible_to<double>;
+  };
+  static_assert(has_thickness || !detail::names_thickness<Body>,
+                "scarp: thickness of a body is never called: it needs `double thickness() const` [m]");
+  static constexpr bool has_length = requires(Body const& body) {
+    { body.length() } -> std::convertible_to<double>;
+  };
+  static_assert(has_length || !detail::names_length<Body>,
+                "scarp: length of a body is never called: it needs `double length() const` [m]");
 
  public:
   using Memory = ContactMemory<2, double>;  ///< shear [Pa] and further numbers of the law at one point
@@ -62,7 +80,7 @@ class Interface {
     require_positive("normal stiffness of an interface [Pa/m]", springs.normal);
     require_not_negative("tangential stiffness of an interface [Pa/m]", springs.tangential);
     for_each_friction(law_, [](double friction) { require_not_negative("friction of an interface", friction); });
-    if constexpr (requires { body_.first_dof(); }) {
+    if constexpr (has_first_dof) {
       if (body_.first_dof() != 2 * detail::count(nodes))
         reject("the body's degrees of freedom begin at {} (those of {} nodes end before {}): give that as dofs_before",
                body_.first_dof(), nodes.size(), 2 * nodes.size());
@@ -82,12 +100,12 @@ class Interface {
   int extra_dofs() const { return body_.extra_dofs(); }
   /// Out of the plane, where the body has one [m].
   std::optional<double> thickness() const {
-    if constexpr (requires { body_.thickness(); }) return body_.thickness();
+    if constexpr (has_thickness) return body_.thickness();
     return std::nullopt;
   }
   /// Length of the body, where it has one [m].
   std::optional<double> length() const {
-    if constexpr (requires { body_.length(); }) return body_.length();
+    if constexpr (has_length) return body_.length();
     return std::nullopt;
   }
 

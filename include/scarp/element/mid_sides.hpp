@@ -10,7 +10,6 @@
 #include "scarp/element/reference_element.hpp"
 
 SCARP_NAMED_MEMBER(mid_sides)
-SCARP_NAMED_MEMBER(node_places)
 
 namespace scarp {
 
@@ -39,9 +38,9 @@ namespace detail {
 
 template <class Element>
 struct CornerElement {
-  static_assert(!names_mid_sides<Element> && !names_node_places<Element>,
-                "scarp: mid_sides() and node_places() of an element are never called: an element with more nodes than "
-                "corners needs `using Linear = ...` with its reference shape, and one of them for all its nodes");
+  static_assert(!names_mid_sides<Element>,
+                "scarp: mid_sides of an element is never called: it needs `using Linear = ...` of the same reference "
+                "shape and `static constexpr std::array<std::array<int, 2>, N> mid_sides()` for its N further nodes");
   using Type = Element;
 };
 template <class Element>

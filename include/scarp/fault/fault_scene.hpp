@@ -75,9 +75,11 @@ auto field_of(Structure const& structure, Grid const& grid, double throw_to) {
   if constexpr (requires { structure.field(grid, throw_to); }) {
     return structure.field(grid, throw_to);
   } else {
-    static_assert(!names_field<Structure>,
-                  "scarp: field of a structure is never called: it needs "
-                  "`auto field(Grid const& grid, double throw_to) const` of the scene's grid");
+    static_assert(
+        !names_field<Structure>,
+        "scarp: field of a structure is never called: it needs "
+        "`auto field(Grid const& grid, double throw_to) const` of the scene's grid; give what is something else "
+        "another name");
     return NoAttachment{};
   }
 }
@@ -88,8 +90,10 @@ Buoyancy buoyancy_of(Structure const& structure) {
   if constexpr (requires { structure.buoyancy(); }) {
     return structure.buoyancy();
   } else {
-    static_assert(!names_buoyancy<Structure>,
-                  "scarp: buoyancy of a structure is never called: it needs `Buoyancy buoyancy() const`");
+    static_assert(
+        !names_buoyancy<Structure>,
+        "scarp: buoyancy of a structure is never called: it needs `Buoyancy buoyancy() const`; give what is something "
+        "else another name");
     return {};
   }
 }
@@ -208,8 +212,10 @@ struct SCARP_EXPORT FaultScene {
     if constexpr (requires { structure.end(throw_to); }) {
       return structure.end(throw_to);
     } else {
-      static_assert(!detail::names_end<Structure>,
-                    "scarp: end of a structure is never called: it needs `double end(double throw_to) const`");
+      static_assert(
+          !detail::names_end<Structure>,
+          "scarp: end of a structure is never called: it needs `double end(double throw_to) const`, the load factor "
+          "at the end of the rest after the throw; give what is something else another name");
       return throw_to;
     }
   }

@@ -386,6 +386,18 @@ struct Wrong : FollowingPressure<> {
 auto const size = sizeof(detail::AttachedPartOf<2, Wrong>);
 }  // namespace case_options_of_attachment
 
+// first: first_dof of a body is never called
+// also: thickness of a body is never called
+// also: length of a body is never called
+namespace case_options_of_body {
+struct Wrong : RigidFooting {
+  long first_dof() const { return 0; }
+  double thickness(int) const { return 1.0; }
+  static constexpr bool length = true;
+};
+auto const size = sizeof(Interface<LinearFrictional, Wrong>);
+}  // namespace case_options_of_body
+
 // first: field of a structure is never called
 // also: buoyancy of a structure is never called
 // also: end of a structure is never called
@@ -401,7 +413,7 @@ auto buoyancy(Scene const& scene) { return detail::buoyancy_of(scene.structure);
 auto end(Scene const& scene) { return scene.end(); }
 }  // namespace case_options_of_structure
 
-// first: mid_sides() and node_places() of an element are never called
+// first: mid_sides of an element is never called
 namespace case_options_of_element {
 struct Wrong : Quad4 {
   static constexpr int mid_sides = 4;
