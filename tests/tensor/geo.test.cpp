@@ -21,30 +21,6 @@ constexpr double round_off = 1e-14;
 
 }  // namespace
 
-TEST_CASE("mean and deviatoric stress of the plane have their closed forms") {
-  // Analytic: p = -(sxx + syy)/2; q = difference of the principal stresses = hypot(sxx - syy, 2 sxy).
-  auto const general = scarp::geo::plane_stress({-100.0, -40.0, 40.0});
-  CHECK(general.p == 70.0);
-  CHECK(general.q == samples::Approx(100.0).epsilon(round_off));
-  auto const isotropic = scarp::geo::plane_stress({-3.0, -3.0, 0.0});
-  CHECK(isotropic.p == 3.0);
-  CHECK(isotropic.q == 0.0);
-  auto const biaxial = scarp::geo::plane_stress({-200e3, -640e3, 0.0});
-  CHECK(biaxial.q == 440e3);
-}
-
-TEST_CASE("mean and deviatoric stress do not depend on the axes") {
-  scarp::VoigtStress<2> const stress(-120.0, -30.0, 25.0);
-  auto const seen = scarp::geo::plane_stress(stress);
-  for (double angle = 0.1; angle < std::numbers::pi; angle += 0.3) {
-    Tensor<2> const turn = scarp::rotation(angle);
-    Tensor<2> const turned = turn * scarp::from_voigt_stress<2, double>(stress) * turn.transpose();
-    auto const other = scarp::geo::plane_stress(scarp::to_voigt_stress<2, double>(turned));
-    CHECK(other.p == samples::Approx(seen.p).epsilon(10.0 * round_off));
-    CHECK(other.q == samples::Approx(seen.q).epsilon(10.0 * round_off));
-  }
-}
-
 TEST_CASE("logarithmic strains of stretch, turn and simple shear have their closed forms") {
   auto const none = scarp::geo::strain<2>(Tensor<2>::Identity());
   CHECK(none.volumetric == 0.0);

@@ -6,6 +6,7 @@
 #include "scarp/core/described.hpp"
 #include "scarp/io/csv.hpp"
 #include "scarp/observe/field_series.hpp"
+#include "scarp/tensor/principal.hpp"
 
 namespace scarp {
 
@@ -28,7 +29,7 @@ class RveProbe : public NeverStops {
   void attempted(Problem const& problem, StepReport const& report) {
     if (!report.verdict.acceptable()) return;
     auto const stress = committed_stress(problem, detail::require_point(problem, point_));
-    auto const geo_stress = geo::plane_stress(stress);
+    auto const principal = principal_values<2>(from_voigt_stress<2, double>(stress));
     auto const strain = geo::strain<2>(seen_deformation(problem, point_));
     double fabric_of_contacts = std::numeric_limits<double>::quiet_NaN();
     double fabric_of_particles = fabric_of_contacts;
@@ -40,8 +41,9 @@ class RveProbe : public NeverStops {
         if (name == "void_ratio") void_ratio = value;
       }
     });
-    log_.add(measure_.of(report.load), strain.deviatoric, strain.volumetric, geo_stress.p, geo_stress.q,
-             fabric_of_contacts, fabric_of_particles, void_ratio, -stress(0), -stress(1), -stress(2));
+    log_.add(measure_.of(report.load), strain.deviatoric, strain.volumetric, -(stress(0) + stress(1)) / 2.0,
+             principal(0) - principal(1), fabric_of_contacts, fabric_of_particles, void_ratio, -stress(0), -stress(1),
+             -stress(2));
   }
 
   SCARP_MEMBERS_EXCEPT((point_, measure_), log_)

@@ -8,18 +8,6 @@
 
 namespace scarp::geo {
 
-/// Views for output in the plane, compression positive (p, eps_v) or unsigned (q, eps_q).
-/// \f$ p = -\sigma_{ii}/2,\; q = \sqrt{2 s_{ij}s_{ij}} \f$: the difference of the principal stresses.
-struct PlaneStress {
-  double p;  ///< [Pa]
-  double q;  ///< [Pa]
-};
-
-/// Views of a Cauchy stress [Pa], tension positive: p is its mean in the plane, compression positive.
-inline PlaneStress plane_stress(VoigtStress<2> const& stress) {
-  return {-(stress(0) + stress(1)) / 2.0, std::hypot(stress(0) - stress(1), 2.0 * stress(2))};
-}
-
 /// Measures of the logarithmic strain,
 /// \f$ \varepsilon_v = -\ln\det F,\; \varepsilon_q = \varepsilon_1 - \varepsilon_3 \f$: the difference of the outer
 /// principal strains, in the plane \f$ \sqrt{2 e_{ij} e_{ij}} \f$.
