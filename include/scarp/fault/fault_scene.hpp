@@ -215,7 +215,7 @@ struct SCARP_EXPORT FaultScene {
       static_assert(
           !detail::names_end<Structure>,
           "scarp: end of a structure is never called: it needs `double end(double throw_to) const`, the load factor "
-          "at the end of the rest after the throw; give what is something else another name");
+          "up to which the bedrock rests after the throw; give what is something else another name");
       return throw_to;
     }
   }
